@@ -24,6 +24,7 @@ set(plugin_headers
 	contact/StoredVertices.hpp
 	host/CheckedAttributes.hpp
 	host/FoundInStep.hpp
+	host/InteractionLoops.hpp
 	host/Seldom.hpp
 	host/SpringsOfScene.hpp
 	pairs/CandidateMemory.hpp

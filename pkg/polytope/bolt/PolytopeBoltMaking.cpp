@@ -5,6 +5,7 @@
 
 #include <src/bolt/BoltLayout.hpp>
 #include <src/bolt/BoltTolerances.hpp>
+#include <src/shape/Numbers.hpp>
 
 #include "bolt/PolytopeBolts.hpp"
 #include "host/CheckedAttributes.hpp"
@@ -16,8 +17,6 @@
 /// Where bolts are made: the blocks on their lines, what is asked of their values, their crossings.
 namespace yade {
 namespace {
-
-	[[noreturn]] void refuseBolt(const std::string& message) { throw std::invalid_argument(message); }
 
 	void checkSteel(const PolytopeBolt& bolt)
 	{
@@ -32,7 +31,7 @@ namespace {
 			message << "ruptureStrain: must be at least that at which the steel yields, yieldForce/(area youngsModulus) = "
 			        << bolt.yieldForce / (bolt.area * bolt.youngsModulus) << ", got " << bolt.ruptureStrain
 			        << ": it would break at " << breaks << " N and never yield; leave out yieldForce for steel that breaks so";
-			refuseBolt(message.str());
+			polytope::refuse(message.str());
 		}
 		requireValue(bolt.pretension >= 0 && math::isfinite(bolt.pretension), "pretension", bolt.pretension,
 		        "at least 0 and finite [N]");
@@ -40,7 +39,7 @@ namespace {
 		        "at most the yieldForce");
 		requireValue(bolt.pretension == 0 || bolt.pretension < breaks, "pretension", bolt.pretension,
 		        "less than that at which the steel reaches its ruptureStrain");
-		if (bolt.pretension > 0 && !bolt.plate) refuseBolt("pretension: needs a plate to pull against, take plate=True");
+		if (bolt.pretension > 0 && !bolt.plate) polytope::refuse("pretension: needs a plate to pull against, take plate=True");
 	}
 
 	void checkGrout(const PolytopeBolt& bolt)
@@ -58,9 +57,9 @@ namespace {
 			        bolt.groutedLength == -1 || bolt.groutedLength > 0, "grout", bolt.groutedLength, "of a length above 0 [m]");
 		} else {
 			if (!bolt.plate)
-				refuseBolt(
+				polytope::refuse(
 				        "plate: nothing holds the head of a bolt without plate and grout; take plate=True or give grout");
-			if (bolt.dowelStiffness > 0) refuseBolt("dowel: a bolt without grout has room in its hole; give grout, too");
+			if (bolt.dowelStiffness > 0) polytope::refuse("dowel: a bolt without grout has room in its hole; give grout, too");
 		}
 		if (bolt.dowelStiffness > 0)
 			requireValue(bolt.dowelStrength > 0, "dowel", bolt.dowelStrength, "of a strength above 0 [N] (infinity: no yield)");
@@ -92,7 +91,7 @@ namespace {
 			const auto inside = polytope::passageThrough(placed(*shape->convex(), state), owner, bolt.head, direction, length);
 			if (!inside) continue;
 			if (shape->dimension == 2 && math::abs(line[2]) > polytope::tolerance::leastPassage * length)
-				refuseBolt("head, end: a bolt through polygons must lie in their plane, with the same z at both");
+				polytope::refuse("head, end: a bolt through polygons must lie in their plane, with the same z at both");
 			found.push_back(*inside);
 			carriers.emplace(owner, body->id);
 		}
@@ -103,17 +102,17 @@ namespace {
 	std::vector<polytope::BoltPassage> goodPassages(const PolytopeBolt& bolt, const Scene& scene, std::map<int, Body::id_t>& carriers)
 	{
 		const Real length = (bolt.end - bolt.head).norm();
-		if (!math::isfinite(length)) refuseBolt("head, end: must be finite points [m]");
-		if (!(length > 0)) refuseBolt("head, end: are the same point " + textOf(bolt.head) + "; a bolt has a length");
+		if (!math::isfinite(length)) polytope::refuse("head, end: must be finite points [m]");
+		if (!(length > 0)) polytope::refuse("head, end: are the same point " + textOf(bolt.head) + "; a bolt has a length");
 		const auto passages = passagesOf(bolt, scene, carriers);
 		if (passages.empty())
-			refuseBolt("head, end: " + lineOf(bolt)
+			polytope::refuse("head, end: " + lineOf(bolt)
 			        + " meets no block with a Polytope shape; make the blocks first, and aim at them");
 		if (!(bolt.groutStiffness > 0) && passages.back().to < (1 - polytope::tolerance::leastPassage) * length)
-			refuseBolt("end: " + textOf(bolt.end)
+			polytope::refuse("end: " + textOf(bolt.end)
 			        + " lies in no block, so that nothing holds the anchor; move the end into a block, or give grout");
 		if (passages.size() == 1)
-			refuseBolt("head, end: " + lineOf(bolt) + " lies in body " + std::to_string(carriers.at(passages[0].block))
+			polytope::refuse("head, end: " + lineOf(bolt) + " lies in body " + std::to_string(carriers.at(passages[0].block))
 			        + " alone; a bolt ties at least two blocks together, lengthen it");
 		return passages;
 	}
@@ -170,7 +169,7 @@ namespace {
 			std::ostringstream message;
 			message << "pretension: " << bolt.pretension << " N is more than the grout holds, " << bolt.chain.groutStrength()
 			        << " N; take less, or a longer or stronger grout";
-			refuseBolt(message.str());
+			polytope::refuse(message.str());
 		}
 		bolt.chain.jack(bolt.pretension);
 		bolt.energy = bolt.chain.energy();
@@ -186,8 +185,9 @@ long PolytopeBolts::make(const PolytopeBolt& pattern)
 	checkGrout(pattern);
 	const Scene& where = *Omega::instance().getScene();
 	if (where.isPeriodic)
-		refuseBolt("head, end: bolts in a periodic cell are not supported; O.periodic = False, or bonds (polytope.bond) between "
-		           "blocks");
+		polytope::refuse(
+		        "head, end: bolts in a periodic cell are not supported; O.periodic = False, or bonds (polytope.bond) between "
+		        "blocks");
 	std::map<int, Body::id_t> carriers;
 	const auto                passages = goodPassages(pattern, where, carriers);
 	const auto                bolt     = shared_ptr<PolytopeBolt>(new PolytopeBolt(pattern));
@@ -203,8 +203,9 @@ long PolytopeBolts::make(const PolytopeBolt& pattern)
 	for (const auto& crossing : layout.crossings)
 		bolt->crossings.push_back(crossingOf(crossing, *bolt, carriers, where));
 	if (bolt->crossings.empty())
-		refuseBolt("grout: holds the bolt in one block alone, and no plate in another one; lengthen the grout or the bolt, or take "
-		           "plate=True");
+		polytope::refuse(
+		        "grout: holds the bolt in one block alone, and no plate in another one; lengthen the grout or the bolt, or take "
+		        "plate=True");
 	bolt->energy = 0;
 	jack(*bolt);
 	bolts.push_back(bolt);

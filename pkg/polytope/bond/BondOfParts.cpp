@@ -32,13 +32,10 @@ namespace {
 		if (!shape1 || !shape2) return {};
 		const Real farthest
 		        = Real(polytope::tolerance::deepestOfFaces) * math::min(shape1->inscribedRadius(), shape2->inscribedRadius());
-		boost::optional<polytope::CommonFace> largest;
-		for (const auto& face : polytope::commonFaces(placed(*shape1, *part1.state), placed(*shape2, *part2.state, shift), farthest,
-		             polytope::tolerance::facingOfJoints))
-			if (face.axes.col(0).dot(normal) > math::cos(Real(polytope::tolerance::facingOfJoints))
-			        && (!largest || face.area > largest->area))
-				largest = face;
-		return largest;
+		const auto faces = polytope::commonFaces(
+		        placed(*shape1, *part1.state), placed(*shape2, *part2.state, shift), farthest, polytope::tolerance::facingOfJoints);
+		const auto* largest = polytope::largestAlong(faces, normal, math::cos(Real(polytope::tolerance::facingOfJoints)));
+		return largest ? boost::make_optional(*largest) : boost::none;
 	}
 
 	/// Each fibre has the opening of the one of the whole that is nearest.

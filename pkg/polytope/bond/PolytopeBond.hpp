@@ -20,6 +20,8 @@ public:
 		return Vector3r(twistingStiffness * (secondMoments[0] + secondMoments[1]), bendingStiffness * secondMoments[1],
 		        bendingStiffness * secondMoments[0]);
 	}
+	/// Moment per rotation of its bodies against each other [N m/rad], world axes. `axes`: the bond's.
+	Matrix3r rotationStiffness(const Matrix3r& axes) const { return axes * angularStiffness().asDiagonal() * axes.transpose(); }
 	/// Area, moments and corners of the face.
 	void takeArea(const polytope::CommonFace& face);
 	/// Sets point and axes on the side of body `which`, 1 or 2: they are these in the world, where the body is now, moved by `shift`.

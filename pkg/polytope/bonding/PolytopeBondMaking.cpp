@@ -7,11 +7,12 @@
 #include <src/bond/BondTolerances.hpp>
 #include <src/bond/CommonFace.hpp>
 #include <src/neighbours/BoxGrid.hpp>
+#include <src/shape/Numbers.hpp>
 
 #include "bonding/PolytopeBonds.hpp"
 #include "host/CheckedAttributes.hpp"
 #include "host/PartsOfBodies.hpp"
-#include "joint/RockJoint.hpp"
+#include "joint/RockJointPhys.hpp"
 #include "material/RockJointMat.hpp"
 #include "shape/ShapeOfBody.hpp"
 
@@ -103,8 +104,6 @@ namespace {
 		}
 	}
 
-	[[noreturn]] void refuseBond(const std::string& message) { throw std::invalid_argument(message); }
-
 	/// Strengths of the joint between the two materials, where it has any: a joint without strength of its own is bonded for good.
 	void takeStrengths(PolytopeBond& bond, const RockJointMat* m1, const RockJointMat* m2)
 	{
@@ -125,7 +124,7 @@ namespace {
 		const auto take = [&](Real& value, const char* name, const auto& rule) {
 			if (value >= 0) return;
 			if (!m1 || !m2)
-				refuseBond(std::string(name) + ": must be given, bodies " + std::to_string(body1.id) + " and "
+				polytope::refuse(std::string(name) + ": must be given, bodies " + std::to_string(body1.id) + " and "
 				        + std::to_string(body2.id) + " are not both of a RockJointMat, whose value would be taken");
 			value = rule(*m1, *m2);
 		};
@@ -134,7 +133,7 @@ namespace {
 		const auto stiffness = [&](Real& value, const char* name, Real Mat::* of) {
 			take(value, name, [&](const Mat& a, const Mat& b) {
 				if (!a.stiffnessPerArea || !b.stiffnessPerArea)
-					refuseBond(std::string(name)
+					polytope::refuse(std::string(name)
 					        + ": must be given per area [Pa/m], that of the RockJointMat is per contact [N/m]");
 				return stiffnessInSeries(a.*of, b.*of);
 			});

@@ -6,7 +6,8 @@
 
 #include "bond/BondOfParts.hpp"
 #include "contact/PolytopeGeom.hpp"
-#include "joint/RockJoint.hpp"
+#include "host/HalfStepWork.hpp"
+#include "joint/RockJointPhys.hpp"
 
 namespace yade {
 
@@ -29,7 +30,7 @@ namespace {
 		return scene.isPeriodic ? scene.cell->intrShiftPos(bond.cellDist) : Vector3r(Vector3r::Zero());
 	}
 
-	/// Whether the joint of two bodies has just taken over from their bond, with its force and energy (RockJointPhysics.cpp).
+	/// Whether the joint of two bodies has just taken over from their bond, with its force and energy (Ip2_RockJointMat_RockJointMat_RockJointPhys.cpp).
 	bool jointHasTakenOver(const PolytopeBond& bond, const Scene& scene)
 	{
 		const auto& contact = scene.interactions->find(bond.id1, bond.id2);
@@ -38,16 +39,13 @@ namespace {
 		        && dynamic_cast<const RockJointPhys*>(contact->phys.get());
 	}
 
-	/// Work of a force and a moment on body 2, and their opposites on body 1, by the bodies' motion in a step, half of it: the mean of the forces at both
-	/// ends of the step, of which the other is none.
+	/// Work in a bond's last step: at its end there is no force any more.
 	Real workOfLastHalf(const PolytopeBond& bond, const Vector3r& force, const Scene& scene)
 	{
 		const State &state1 = *(*scene.bodies)[bond.id1]->state, &state2 = *(*scene.bodies)[bond.id2]->state;
 		Vector3r     velocity = state2.vel - state1.vel;
 		if (scene.isPeriodic) velocity += scene.cell->intrShiftVel(bond.cellDist);
-		return scene.dt / 2
-		        * (force.dot(velocity) + (bond.arm2.cross(force) + bond.moment).dot(state2.angVel)
-		                - (bond.arm1.cross(force) + bond.moment).dot(state1.angVel));
+		return halfStepWork({ force, bond.moment, bond.arm1, bond.arm2 }, velocity, state1, state2, scene.dt);
 	}
 
 } // namespace
@@ -192,7 +190,7 @@ void PolytopeBonds::rebuild()
 		enter(k);
 }
 
-bool PolytopeBonds::goesOnBetween(const PolytopeBond& whole, const Body& whole1, const Body& whole2, const Body& part1, const Body& part2)
+bool PolytopeBonds::continueBetween(const PolytopeBond& whole, const Body& whole1, const Body& whole2, const Body& part1, const Body& part2)
 {
 	const auto part = bondOfParts(whole, whole1, whole2, part1, part2, *Omega::instance().getScene()->bodies);
 	if (!part) return false;
@@ -305,12 +303,11 @@ void PolytopeBonds::forSpringsOf(const Body& body, const std::function<void(cons
 	for (int k : ofBody_[body.id]) {
 		const PolytopeBond& bond = *bonds[k];
 		if (!bond.intact) continue;
-		const bool     first   = bond.id1 == body.id;
-		const Vector3r linear  = bond.linearStiffness();
-		const Matrix3r axes    = (body.state->ori * (first ? bond.frame1 : bond.frame2)).toRotationMatrix();
-		const Vector3r angular = bond.angularStiffness();
+		const bool     first  = bond.id1 == body.id;
+		const Vector3r linear = bond.linearStiffness();
+		const Matrix3r axes   = (body.state->ori * (first ? bond.frame1 : bond.frame2)).toRotationMatrix();
 		visit({ axes.col(0), body.state->pos + body.state->ori * (first ? bond.point1 : bond.point2), linear[0], linear[1],
-		        axes * angular.asDiagonal() * axes.transpose() });
+		        bond.rotationStiffness(axes) });
 	}
 }
 

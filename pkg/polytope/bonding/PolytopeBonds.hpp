@@ -22,7 +22,7 @@ public:
 	/// The bonds that make() would make, without making them: nothing of the scene is changed.
 	boost::python::list find(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern) const;
 	/// A bond of this engine, failed or not, goes on between parts of its two bodies (bond/BondOfParts.hpp); returns whether the parts have one.
-	bool goesOnBetween(const PolytopeBond& whole, const Body& whole1, const Body& whole2, const Body& part1, const Body& part2);
+	bool continueBetween(const PolytopeBond& whole, const Body& whole1, const Body& whole2, const Body& part1, const Body& part2);
 	long intactCount() const;
 	/// Number of intact bonds whose bodies are those of the present scene. The engine may be no longer in O.engines, or of another scene.
 	long intactInScene() const;
@@ -66,16 +66,18 @@ engine of this kind a scene.)""",
 		.def("_takeStates", &PolytopeBonds::takeStates)
 		.def("_adoptBodies", &PolytopeBonds::adoptBodies)
 		.def("_meetBodies", &PolytopeBonds::meetBodies)
-		.def("_goesOnBetween", &PolytopeBonds::goesOnBetween)
+		.def("_continueBetween", &PolytopeBonds::continueBetween)
 		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they "
 		        "were made.")
 		.add_property("intactCount", &PolytopeBonds::intactCount, "Number of bonds that are intact.")
 		.add_property("intactInScene", &PolytopeBonds::intactInScene, "Number of intact bonds whose bodies are in the present scene, "
 		        "whether or not this engine is in O.engines.")
-		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")),
+		.def("make", &PolytopeBonds::make,
+		        (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")),
 		        "Make bonds between faces of these bodies (empty: all), with the values of a *PolytopeBond*; see *polytope.bond*, which "
 		        "calls it.")
-		.def("find", &PolytopeBonds::find, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")),
+		.def("find", &PolytopeBonds::find,
+		        (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")),
 		        "The bonds that *make* would make, as a list, without making them: the faces that bodies have in common.")
 	);
 	// clang-format on

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/ContactOptions.hpp"
+#include "contact/Ig2_Polytope_Polytope_PolytopeGeom.hpp"
 
 namespace yade {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/MixedPairs.hpp"
 
-#include "contact/ContactOptions.hpp"
+#include "contact/Ig2_Polytope_Polytope_PolytopeGeom.hpp"
 #include "contact/SphereOnPieces.hpp"
 #include "contact/StandIns.hpp"
 #include "contact/StiffnessShare.hpp"
@@ -81,8 +81,7 @@ bool Ig2_Sphere_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const
 	result.infeasibility = -depth / 2; // the diameter of the largest ball between a sphere and a plane is the depth
 	result.normal        = -nearest.outward;
 	result.point         = (radius - depth / 2) * result.normal;
-	const Real cap       = math::max(Real(0), math::min(depth / 2, radius));
-	result.area          = share * Mathr::PI * cap * (2 * radius - cap);
+	result.area          = share * Mathr::PI * discRadiusSquared(radius, depth);
 	if (result.inContact) {
 		PolytopeGeom& geom = geometry(c);
 		if (!wasReal && share < 1) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));

@@ -3,12 +3,14 @@
 
 #include <src/numbers/PlaneAxes.hpp>
 #include <src/program/PlaneCode.hpp>
+#include <src/shape/Numbers.hpp>
 
+#include <core/Omega.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
 
-#include "contact/ContactOptions.hpp"
 #include "contact/ContactSizes.hpp"
+#include "contact/Ig2_Polytope_Polytope_PolytopeGeom.hpp"
 #include "contact/InternalFaces.hpp"
 #include "contact/StiffnessShare.hpp"
 #include "host/Prefetch.hpp"
@@ -20,7 +22,7 @@
 
 namespace yade {
 
-POLYTOPE_CLASSES((PolytopeGeom)(PolytopeGeomFunctor)(Ig2_Polytope_Polytope_PolytopeGeom));
+POLYTOPE_CLASSES((PolytopeGeom)(PolytopeGeomFunctor));
 
 polytope::PairMemory PolytopeGeom::memory() const
 {
@@ -128,14 +130,34 @@ Real normalWeightOfFirst(const Body* body1, const Body* body2)
 	return k1 > 0 && k2 > 0 && math::isfinite(k1 + k2) ? k1 / (k1 + k2) : Real(0.5);
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
-        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+const Ig2_Polytope_Polytope_PolytopeGeom& PolytopeGeomFunctor::ofScene() const
 {
-	const auto& convex1 = static_cast<const Polytope&>(*shape1).convex();
-	const auto& convex2 = static_cast<const Polytope&>(*shape2).convex();
-	if (!convex1 || !convex2) return false; // no planes: nothing to touch
-	const Body1Frame frame1 { state1.pos, state1.ori.toRotationMatrix() };
-	return query(*convex1, frame1, *convex2, state1, state2, shift2, force, c);
+	return Ig2_Polytope_Polytope_PolytopeGeom::orDefault(settings_.in(*scene));
+}
+
+polytope::ContactSettings PolytopeGeomFunctor::settings(StiffnessRule rule) const
+{
+	polytope::ContactSettings settings(ofScene().options(rule));
+	settings.energy = settings.energy || scene->trackEnergy;
+	return settings;
+}
+
+void PolytopeGeomFunctor::refuse(const std::string& name) const
+{
+	polytope::refuse(name + ": " + getClassName()
+	        + " has no settings of its own; set it in the scene's Ig2_Polytope_Polytope_PolytopeGeom, for all contacts");
+}
+
+void PolytopeGeomFunctor::pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& named)
+{
+	for (const char* name : names)
+		if (named.has_key(name)) refuse(name);
+}
+
+boost::python::object PolytopeGeomFunctor::settingOfScene(const char* name) const
+{
+	const auto& settings = Ig2_Polytope_Polytope_PolytopeGeom::orDefault(*Omega::instance().getScene());
+	return boost::python::object(boost::python::ptr(&settings)).attr(name);
 }
 
 bool PolytopeGeomFunctor::goReverse(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,

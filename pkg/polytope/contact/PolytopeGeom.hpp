@@ -89,17 +89,17 @@ public:
 :yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`. Models with a surface: a force of stiffness times depth (per area: times area,
 too) along the normal through the point is the gradient of an elastic energy; on faces its point is the centre of the pressure
 (docs/contact-force.md). While a rock joint acts as a bond (:yref:`RockJointPhys.bond`), its law writes the bond's normal, point and
-:yref:`energyPerStiffness<PolytopeGeom.energyPerStiffness>` in place of the overlap's. Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for
-:yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose
+:yref:`energyPerStiffness<PolytopeGeom.energyPerStiffness>` in place of the overlap's. Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*``
+(with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose
 :yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a
 P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2*, which YADE's physics take their stiffness from,
 are the bodies' sizes when the contact began: half the edge of the cube (polygons: square) of the same volume (area), a sphere's radius; a wall, a
 box, a facet and a body that cannot move count as large as the other body.)""",
 		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear program [m]: minus the radius of the largest ball "
 		        "in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
-		((Real, contactArea, 0, Attr::readonly, "Area of the contact surface as seen along the normal, or, with *boon2012*, area in which the plane "
-		        "through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. With "
-		        "*boon2012* computed where a law needs it, as those of rock joints do, or if "
+		((Real, contactArea, 0, Attr::readonly, "Area of the contact surface as seen along the normal, or, with *boon2012*, area in "
+		        "which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times "
+		        "thickness. With *boon2012* computed where a law needs it, as those of rock joints do, or if "
 		        ":yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
 		((std::int8_t, statusCode, 0, (Attr::readonly | Attr::hidden), "Outcome of the last query as a number"))
 		((bool, hasBasis, false, (Attr::readonly | Attr::hidden), "Whether the basis is known"))
@@ -164,7 +164,7 @@ Real normalWeightOfFirst(const Body* body1, const Body* body2);
 
 class Ig2_Polytope_Polytope_PolytopeGeom;
 
-/// What makes the geometry of contacts with a Polytope. Its settings are those of the scene's one Ig2_Polytope_Polytope_PolytopeGeom (ContactOptions.hpp).
+/// What makes the geometry of contacts with a Polytope. Its settings are those of the scene's one Ig2_Polytope_Polytope_PolytopeGeom.
 class PolytopeGeomFunctor : public IGeomFunctor {
 public:
 	/// The scene's settings for a contact whose stiffness has this unit.
@@ -185,7 +185,8 @@ public:
 	template <std::size_t k> void                  set(const boost::python::object&) { refuse(names[k]); }
 
 	// clang-format off
-#define POLYTOPE_SETTING(k) .add_property(names[k], &PolytopeGeomFunctor::setting<k>, &PolytopeGeomFunctor::set<k>, "That of the scene's :yref:`Ig2_Polytope_Polytope_PolytopeGeom`, where it is set for all contacts.")
+#define POLYTOPE_SETTING(k) .add_property(names[k], &PolytopeGeomFunctor::setting<k>, &PolytopeGeomFunctor::set<k>, \
+		"That of the scene's :yref:`Ig2_Polytope_Polytope_PolytopeGeom`, where it is set for all contacts.")
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeomFunctor, IGeomFunctor,
 	"What the functors have in common that create or update a :yref:`PolytopeGeom`. Their settings are those of the scene's "
 	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`, or the defaults where it has none: to be read here, and set there.",

@@ -32,6 +32,12 @@ inline bool isPiece(const Body& body) { return body.isClumpMember() || !body.isD
 /// Whether forces move the body; members of clumps are moved by their clump.
 inline bool isMovedByForces(const Body& body) { return body.state && body.isDynamic() && !body.isClumpMember(); }
 
+/// Whether YADE's NewtonIntegrator turns the body about its own axes: with a rotation blocked, moments of inertia are those about the world's axes.
+inline bool turnsAboutOwnAxes(const Body& body)
+{
+	return body.isAspherical() && (body.state->blockedDOFs & State::DOF_RXRYRZ) == State::DOF_NONE;
+}
+
 /// Whether the scene is a part of one that several processes compute.
 inline bool isDivided(const Scene& scene)
 {

@@ -3,22 +3,14 @@
 
 #include "bond/BondOfParts.hpp"
 #include "contact/PolytopeGeom.hpp"
-#include "joint/RockJoint.hpp"
-
-#include <core/InteractionLoop.hpp>
+#include "host/InteractionLoops.hpp"
+#include "joint/RockJointPhys.hpp"
 
 #include <src/numbers/PlaneAxes.hpp>
 #include <src/shear/ContactOutline.hpp>
 
 namespace yade {
 namespace {
-
-	const InteractionLoop* loopOf(const Scene& scene)
-	{
-		for (const auto& engine : scene.engines)
-			if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) return loop;
-		return nullptr;
-	}
 
 	bool touches(const PolytopeGeom& geom)
 	{
@@ -29,7 +21,7 @@ namespace {
 	shared_ptr<Interaction> contactOf(
 	        Scene& scene, const shared_ptr<Body>& part1, const shared_ptr<Body>& part2, const PolytopeGeom& whole, bool force)
 	{
-		const InteractionLoop* const loop = loopOf(scene);
+		const auto* const loop = findInLoops(scene, [](InteractionLoop& first) { return &first; });
 		if (!loop) return nullptr;
 		bool       swap    = false;
 		const auto functor = loop->geomDispatcher->getFunctor2D(part1->shape, part2->shape, swap);
@@ -96,15 +88,12 @@ namespace {
 	/// What energies are counted from in the next step.
 	void beginEnergies(RockJointPhys& phys, const PolytopeGeom& geom, const Body& part1, const Body& part2)
 	{
-		const Real       overlap   = geom.penetrationDepth + phys.dilation - phys.restOverlap;
-		const bool       ofSurface = geom.energyPerStiffness >= 0 && phys.dilation == 0 && phys.restOverlap == 0;
-		const Real       normal    = phys.normalForce.isZero()
-		                 ? Real(0)
-		                 : Real(phys.kn * (ofSurface ? geom.energyPerStiffness : phys.energyPerStiffness(overlap)));
-		LastStepOfJoint& last      = phys.lastStep.make();
-		last.arm1                  = geom.contactPoint - part1.state->pos;
-		last.arm2                  = geom.contactPoint - part2.state->pos;
-		last.moment                = phys.momentAbout(geom.contactPoint, geom.normal)
+		const Real       force  = phys.normalForce.dot(geom.normal);
+		const Real       normal = force == 0 ? Real(0) : phys.normalEnergy(geom, force);
+		LastStepOfJoint& last   = phys.lastStep.make();
+		last.arm1               = geom.contactPoint - part1.state->pos;
+		last.arm2               = geom.contactPoint - part2.state->pos;
+		last.moment             = phys.momentAbout(geom.contactPoint, geom.normal)
 		        + (phys.bond ? Vector3r(Vector3r::Zero()) : phys.normalMoment(geom.turningArm));
 		last.stored = phys.bond ? phys.bond->energy : Real(normal + phys.shearEnergy());
 	}
@@ -120,7 +109,7 @@ namespace {
 
 } // namespace
 
-bool goesOnBetween(Scene& scene, const Interaction& whole, const Body& whole1, const Body& whole2, const shared_ptr<Body>& part1,
+bool continueBetween(Scene& scene, const Interaction& whole, const Body& whole1, const Body& whole2, const shared_ptr<Body>& part1,
         const shared_ptr<Body>& part2)
 {
 	const auto& wholeGeom = static_cast<const PolytopeGeom&>(*whole.geom);

@@ -12,7 +12,7 @@ namespace yade {
 /// \param whole with a PolytopeGeom and a RockJointPhys, as it was in the last step; its bodies need not be in the scene any more
 /// \param part1,part2 in the scene, where the wholes were; the collider knows them, for a contact with one of several flush pieces depends on the others
 /// \returns whether the parts have such a contact
-bool goesOnBetween(Scene& scene, const Interaction& whole, const Body& whole1, const Body& whole2, const shared_ptr<Body>& part1,
+bool continueBetween(Scene& scene, const Interaction& whole, const Body& whole1, const Body& whole2, const shared_ptr<Body>& part1,
         const shared_ptr<Body>& part2);
 
 } // namespace yade

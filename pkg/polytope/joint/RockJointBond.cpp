@@ -55,9 +55,7 @@ namespace {
 		        = Real(polytope::tolerance::touchingFaces) * math::min(shape1->boundingRadius(), shape2->boundingRadius());
 		const auto faces = polytope::commonFaces(
 		        placed(*shape1, state1), placed(*shape2, state2, shift), touching, polytope::tolerance::facingOfJoints);
-		const polytope::CommonFace* largest = nullptr;
-		for (const auto& face : faces)
-			if (face.axes.col(0).dot(normal) > 0 && (!largest || face.area > largest->area)) largest = &face;
+		const polytope::CommonFace* const largest = polytope::largestAlong(faces, normal, 0);
 		if (!largest) return nullptr;
 		const auto bond = bondOf(*largest, contact, state1, state2, shift, -shear / (phys.shearStiffness * largest->area));
 		takeStiffnesses(*bond, phys);

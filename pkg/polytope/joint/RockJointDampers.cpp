@@ -32,21 +32,21 @@ namespace {
 	/// s of a contact that had this stiffness when the sum, along its normal, was made.
 	Real partOfSum(Real stiffness, Real sum) { return sum > stiffness ? stiffness / sum : Real(1); }
 
-	bool movesByForces(const Body& mover) { return isMovedByForces(mover) && mover.state->mass > 0; }
+	/// Whether it has a mass that a damper can slow down.
+	bool hasDampedMass(const Body& mover) { return isMovedByForces(mover) && mover.state->mass > 0; }
 
 	/// What a body of a contact is for the other one.
 	Across across(const Body& body, const Scene& scene)
 	{
-		return movesByForces(moverOf(body, scene)) ? Across::Mover : Across::Support;
+		return hasDampedMass(moverOf(body, scene)) ? Across::Mover : Across::Support;
 	}
 
-	/// uᵀ I⁻¹ u, as YADE's integrator turns bodies.
+	/// uᵀ I⁻¹ u; mobilityOf() of the time step has the root of I⁻¹, which would take six roots here.
 	Real turning(const Body& mover, const Vector3r& u)
 	{
 		const State&    state   = *mover.state;
-		const bool      free    = (state.blockedDOFs & State::DOF_RXRYRZ) == State::DOF_NONE;
 		const Vector3r& inertia = state.inertia;
-		const Vector3r  v       = free && mover.isAspherical() ? Vector3r(state.ori.conjugate() * u) : u;
+		const Vector3r  v       = turnsAboutOwnAxes(mover) ? Vector3r(state.ori.conjugate() * u) : u;
 		Real            sum     = 0;
 		for (int k = 0; k < 3; ++k)
 			if (inertia[k] > 0 && !(state.blockedDOFs & State::axisDOF(k, true))) sum += v[k] * v[k] / inertia[k];
@@ -66,7 +66,7 @@ namespace {
 
 Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody::DampedBody(
         const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Body& other, const Vector3r& shift)
-        : mover(moverOf(body, *pair.scene)), moves(movesByForces(mover)), otherIs(across(other, *pair.scene)),
+        : mover(moverOf(body, *pair.scene)), moves(hasDampedMass(mover)), otherIs(across(other, *pair.scene)),
           arm(pair.geom.contactPoint - mover.state->pos - shift)
 {
 	if (!moves) return;
@@ -160,7 +160,7 @@ Real inverseDampedMass(const Body& body1, const Body& body2, const Vector3r& nor
 	Real inverse = 0;
 	for (const Body* body : { &body1, &body2 }) {
 		const Body& mover = moverOf(*body, scene);
-		if (!movesByForces(mover)) continue;
+		if (!hasDampedMass(mover)) continue;
 		// of a contact that is in no sum, as after a law was exchanged, the largest that it can be
 		const Real part = phys.dampedStiffness > 0
 		        ? partOfSum(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint/RockJointStep.hpp"
 
+#include "host/HalfStepWork.hpp"
+
 namespace yade {
 
 void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nameEnergies()
@@ -23,11 +25,9 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	const LastStepOfJoint before = phys.lastStep.get() ? *phys.lastStep.get() : LastStepOfJoint();
 	const Vector3r        force  = phys.normalForce + phys.shearForce;
 	const Vector3r        moment = pair.momentOf(phys);
-	const Real            given  = scene->dt / 2
-	        * ((last.force + force).dot(pair.centreVelocity())
-	                + (before.arm2.cross(last.force) + pair.arm2.cross(force)).dot(pair.state2.angVel)
-	                - (before.arm1.cross(last.force) + pair.arm1.cross(force)).dot(pair.state1.angVel)
-	                + (before.moment + moment).dot(pair.spin()));
+	const auto            half
+	        = [&](const ForceOfPair& of) { return halfStepWork(of, pair.centreVelocity(), pair.state1, pair.state2, scene->dt); };
+	const Real given = half({ last.force, before.moment, before.arm1, before.arm2 }) + half({ force, moment, pair.arm1, pair.arm2 });
 	// a contact that was there before tracking was switched on has no last step to compare with
 	const bool known = before.stored >= 0 || pair.contact.iterMadeReal == scene->iter;
 	Real       rest  = 0;

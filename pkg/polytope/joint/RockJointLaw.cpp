@@ -12,15 +12,6 @@ namespace {
 	/// Whether the bodies are so far apart that the joint does not remember what it was.
 	bool isFarApart(const PolytopeGeom& geom) { return !(-geom.penetrationDepth < math::min(geom.refR1, geom.refR2)); }
 
-	/// Energy of the normal spring; the geometry of a contact surface has the energy whose gradient its force is.
-	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
-	{
-		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0 && phys.restOverlap == 0)
-			return phys.kn * geom.energyPerStiffness;
-		if (phys.laws.get()) return phys.kn * phys.energyPerStiffness(geom.penetrationDepth + phys.dilation - phys.restOverlap);
-		return phys.kn > 0 ? elastic * elastic / (2 * phys.kn) : Real(0);
-	}
-
 } // namespace
 
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, shared_ptr<IPhys>& iphys, Interaction* contact)
@@ -91,7 +82,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 		work.normalDamping  = -(last.normalViscous + viscous) / 2 * geom.normal.dot(pair.velocity()) * scene->dt;
 		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
 		work.shearDamping   = shear.dampingLoss(last.shearViscous, last.twistingViscous);
-		work.stored         = normalEnergy(geom, phys, elasticNormal) + shear.energy();
+		work.stored         = phys.normalEnergy(geom, elasticNormal) + shear.energy();
 		book(pair, phys, last, work);
 	}
 	return true;

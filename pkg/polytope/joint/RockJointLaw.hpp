@@ -11,7 +11,7 @@
 
 /// The law of rock joints: springs, Mohr–Coulomb strength, dilation, dampers, and the accounting of their energy.
 ///
-/// Signs as in RockJoint.hpp; relative velocities are body 2's relative to body 1.
+/// Signs as in RockJointPhys.hpp; relative velocities are body 2's relative to body 1.
 namespace yade {
 
 class PolytopeGeom;

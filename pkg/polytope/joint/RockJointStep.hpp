@@ -4,8 +4,8 @@
 #include <core/Scene.hpp>
 
 #include "contact/PolytopeGeom.hpp"
-#include "joint/RockJoint.hpp"
 #include "joint/RockJointLaw.hpp"
+#include "joint/RockJointPhys.hpp"
 #include "joint/StiffnessSums.hpp"
 
 /// What the law of rock joints knows of one contact in one step: motion, the state before, and the work done.

@@ -123,4 +123,11 @@ void RockJointMat::refuseForLaws() const
 		refuse("frictionAngle", "must not be above initialFrictionAngle of the ContinuouslyYieldingStrength");
 }
 
+StiffnessRule stiffnessRuleOf(const Material& material1, const Material& material2)
+{
+	const auto *joint1 = dynamic_cast<const RockJointMat*>(&material1), *joint2 = dynamic_cast<const RockJointMat*>(&material2);
+	if (!joint1 || !joint2) return StiffnessRule::Unknown;
+	return joint1->stiffnessPerArea && joint2->stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact;
+}
+
 } // namespace yade

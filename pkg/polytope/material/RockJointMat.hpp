@@ -4,6 +4,7 @@
 #include <pkg/common/ElastMat.hpp>
 
 #include "material/JointLaws.hpp"
+#include "material/StiffnessRules.hpp"
 
 namespace yade {
 
@@ -97,6 +98,9 @@ private:
 	Checked checked_ { checkedOnes() };
 };
 REGISTER_SERIALIZABLE(RockJointMat);
+
+/// The rule for a joint of two materials: per area where both are; Unknown where one of them is no RockJointMat.
+StiffnessRule stiffnessRuleOf(const Material& material1, const Material& material2);
 
 /// Joint stiffness of two materials, each giving half of the compliance.
 inline Real stiffnessInSeries(Real k1, Real k2) { return k1 == k2 ? k1 : 2 * k1 * k2 / (k1 + k2); }

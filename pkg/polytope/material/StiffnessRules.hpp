@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <core/InteractionLoop.hpp>
-#include <core/Scene.hpp>
+#include "host/InteractionLoops.hpp"
 
 #include <optional>
 
@@ -40,14 +39,12 @@ public:
 /// The rule for the stiffness of a contact of two materials whose physics are made now.
 inline StiffnessRule stiffnessRuleOfNew(const Scene& scene, const Material& material1, const Material& material2)
 {
-	for (const auto& engine : scene.engines)
-		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
-			for (const auto& functor : loop->physDispatcher->functors) {
-				const auto*         giver = dynamic_cast<const GivesJointStiffness*>(functor.get());
-				const StiffnessRule rule  = giver ? giver->stiffnessRule(material1, material2) : StiffnessRule::Unknown;
-				if (rule != StiffnessRule::Unknown) return rule;
-			}
-	return StiffnessRule::Unknown;
+	const auto found = findInFunctors<const GivesJointStiffness>(
+	        scene, &InteractionLoop::physDispatcher, [&](const GivesJointStiffness& giver) -> std::optional<StiffnessRule> {
+		        const StiffnessRule rule = giver.stiffnessRule(material1, material2);
+		        return rule != StiffnessRule::Unknown ? std::make_optional(rule) : std::nullopt;
+	        });
+	return found.value_or(StiffnessRule::Unknown);
 }
 
 } // namespace yade

@@ -5,7 +5,7 @@
 
 #include "contact/PolytopeGeom.hpp"
 #include "host/ExactClass.hpp"
-#include "joint/RockJoint.hpp"
+#include "joint/RockJointPhys.hpp"
 #include "output/VtkFiles.hpp"
 #include "shape/Polytope.hpp"
 

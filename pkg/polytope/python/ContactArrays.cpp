@@ -2,7 +2,7 @@
 #include "contact/PolytopeGeom.hpp"
 #include "host/ExactClass.hpp"
 #include "host/Prefetch.hpp"
-#include "joint/RockJoint.hpp"
+#include "joint/RockJointPhys.hpp"
 #include "python/ArrayTable.hpp"
 #include "python/Arrays.hpp"
 

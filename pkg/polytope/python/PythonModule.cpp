@@ -5,12 +5,12 @@
 // It lives in the same library as the classes (_polytope.so). Plugin.cpp has loaded that at YADE's start; the first
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
 // classes and converters are registered by then.
-#include "contact/ContactOptions.hpp"
+#include "contact/Ig2_Polytope_Polytope_PolytopeGeom.hpp"
 #include "contact/MarginContact.hpp"
 #include "host/Extensions.hpp"
 #include "host/Vectors.hpp"
 #include "joint/JointOfParts.hpp"
-#include "joint/RockJoint.hpp"
+#include "joint/RockJointPhys.hpp"
 #include "material/RockJointMat.hpp"
 #include "material/StiffnessRules.hpp"
 #include "python/Arrays.hpp"
@@ -19,6 +19,7 @@
 #include "shape/ShapeFamily.hpp"
 #include "step/PotentialContacts.hpp"
 #include "step/WorkerContacts.hpp"
+#include "step/WorkerSums.hpp"
 
 #include "BuildInfo.hpp"
 
@@ -205,11 +206,7 @@ yade::StiffnessRule ruleOf(const yade::Body& body1, const yade::Body& body2)
 	const auto &material1 = body1.material, &material2 = body2.material;
 	if (!material1 || !material2) return yade::StiffnessRule::Unknown;
 	const auto rule = yade::stiffnessRuleOfNew(*yade::Omega::instance().getScene(), *material1, *material2);
-	if (rule != yade::StiffnessRule::Unknown) return rule;
-	const auto *joint1 = dynamic_cast<const yade::RockJointMat*>(material1.get()),
-	           *joint2 = dynamic_cast<const yade::RockJointMat*>(material2.get());
-	if (!joint1 || !joint2) return yade::StiffnessRule::Unknown;
-	return joint1->stiffnessPerArea && joint2->stiffnessPerArea ? yade::StiffnessRule::PerArea : yade::StiffnessRule::PerContact;
+	return rule != yade::StiffnessRule::Unknown ? rule : yade::stiffnessRuleOf(*material1, *material2);
 }
 
 /// What is given, and for None what the scene has.
@@ -253,10 +250,10 @@ Contact contact(const py::object& b1, const py::object& b2, const py::object& co
 }
 
 /// See JointOfParts.hpp.
-bool goesOnBetween(const boost::shared_ptr<yade::Interaction>& whole, const boost::shared_ptr<yade::Body>& whole1,
+bool continueBetween(const boost::shared_ptr<yade::Interaction>& whole, const boost::shared_ptr<yade::Body>& whole1,
         const boost::shared_ptr<yade::Body>& whole2, const boost::shared_ptr<yade::Body>& part1, const boost::shared_ptr<yade::Body>& part2)
 {
-	return yade::goesOnBetween(*yade::Omega::instance().getScene(), *whole, *whole1, *whole2, part1, part2);
+	return yade::continueBetween(*yade::Omega::instance().getScene(), *whole, *whole1, *whole2, part1, part2);
 }
 
 /// Name of each status → answered().
@@ -395,7 +392,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	        .add_property(
 	                "ipoptIterations", &field<int, &ContactResult::ipoptIterations>, "Iterations of Ipopt, 0 where it was not needed.")
 	        .add_property("simplexPivots", &field<int, &ContactResult::simplexPivots>, "Pivots of the linear program.");
-	py::def("goesOnBetween", &goesOnBetween,
+	py::def("continueBetween", &continueBetween,
 	        (py::arg("whole"), py::arg("whole1"), py::arg("whole2"), py::arg("part1"), py::arg("part2")),
 	        "The rock joint of a contact goes on between parts of its two bodies; whether these have a contact.");
 	py::def("contact", &contact,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/PotentialContacts.hpp"
 
-#include <core/InteractionLoop.hpp>
 #include <lib/high-precision/Constants.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 
@@ -9,10 +8,13 @@
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
-#include "contact/ContactOptions.hpp"
 #include "contact/ContactSizes.hpp"
+#include "contact/Ig2_Polytope_Polytope_PolytopeGeom.hpp"
+#include "host/InteractionLoops.hpp"
+#include "joint/Ip2_RockJointMat_RockJointMat_RockJointPhys.hpp"
+#include "joint/RockJointDampers.hpp"
 #include "joint/RockJointLaw.hpp"
-#include "joint/RockJointPhysics.hpp"
+#include "material/RockJointMat.hpp"
 #include "material/StiffnessRules.hpp"
 #include "shape/ShapeFamily.hpp"
 #include "shape/ShapeOfBody.hpp"
@@ -20,21 +22,6 @@
 namespace yade {
 
 namespace {
-
-	/// ∫ r rᵀ dA / A of a face, r from a point in it.
-	Matrix3r secondMoment(const std::vector<Vector3r>& vertices, const std::vector<int>& face, const Vector3r& point)
-	{
-		Real     area = 0;
-		Matrix3r sum  = Matrix3r::Zero();
-		for (std::size_t k = 2; k < face.size(); ++k) {
-			const Vector3r a = vertices[face[0]] - point, b = vertices[face[k - 1]] - point, c = vertices[face[k]] - point,
-			               all = a + b + c;
-			const Real twice   = (b - a).cross(c - a).norm();
-			area += twice / 2;
-			sum += twice / 24 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + all * all.transpose());
-		}
-		return sum / area;
-	}
 
 	Real largestFace(const polytope::ConvexShape& shape)
 	{
@@ -99,18 +86,16 @@ namespace {
 	Stiffness answer(
 	        Scene& scene, shared_ptr<Material> material1, shared_ptr<Material> material2, const shared_ptr<Interaction>& contact)
 	{
-		for (const auto& engine : scene.engines) {
-			auto* loop = dynamic_cast<InteractionLoop*>(engine.get());
-			if (!loop) continue;
+		const auto found = findInLoops(scene, [&](InteractionLoop& loop) -> std::optional<Stiffness> {
 			bool       swap    = false;
-			const auto functor = loop->physDispatcher->getFunctor2D(material1, material2, swap);
-			if (!functor) continue;
+			const auto functor = loop.physDispatcher->getFunctor2D(material1, material2, swap);
+			if (!functor) return std::nullopt;
 			if (const auto* giver = dynamic_cast<const GivesJointStiffness*>(functor.get())) {
 				const auto* const geom  = dynamic_cast<const PolytopeGeom*>(contact->geom.get());
 				const auto&       size  = static_cast<const ScGeom&>(*contact->geom);
 				const auto        known = giver->stiffnesses(
                                         *material1, *material2, geom ? geom->contactArea : Real(0), size.refR1, size.refR2);
-				if (known) return { known->normal, known->shear };
+				if (known) return Stiffness { known->normal, known->shear };
 			}
 			auto* joints = dynamic_cast<Ip2_RockJointMat_RockJointMat_RockJointPhys*>(functor.get());
 			if (joints || dynamic_cast<Ip2_FrictMat_FrictMat_FrictPhys*>(functor.get())) {
@@ -120,17 +105,16 @@ namespace {
 					        static_cast<const RockJointMat&>(*material2), contact);
 				else functor->go(material1, material2, contact);
 				if (const auto* phys = dynamic_cast<const NormShearPhys*>(contact->phys.get()))
-					return { phys->kn * initialTangent(*phys), phys->ks };
+					return Stiffness { phys->kn * initialTangent(*phys), phys->ks };
 			}
 			const auto *elastic1 = dynamic_cast<const ElastMat*>(material1.get()),
 			           *elastic2 = dynamic_cast<const ElastMat*>(material2.get());
-			if (!elastic1 || !elastic2) continue;
+			if (!elastic1 || !elastic2) return std::nullopt;
 			const auto& geom = static_cast<const ScGeom&>(*contact->geom);
-			const Real  k1 = elastic1->young * geom.refR1, k2 = elastic2->young * geom.refR2,
-			           k = k1 + k2 > 0 ? 2 * k1 * k2 / (k1 + k2) : 0;
-			return { k, k };
-		}
-		return {};
+			const Real  k    = stiffnessInSeries(elastic1->young * geom.refR1, elastic2->young * geom.refR2);
+			return Stiffness { k, k };
+		});
+		return found.value_or(Stiffness {});
 	}
 
 } // namespace
@@ -195,14 +179,15 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	std::array<Real, 3> worst { { 0, 0, 0 } };
 	for (std::size_t k = 0; k < hull.faces.size(); ++k) {
 		if (hull.planeOfFace[k] < 0) continue; // a polygon's caps
-		const Vector3r area   = axes * polytope::faceArea(hull, k);
+		const Vector3r area = polytope::faceArea(hull, k), outward = axes * area.normalized();
 		Vector3r       middle = Vector3r::Zero();
 		for (int vertex : hull.faces[k])
 			middle += axes * hull.vertices[vertex] / Real(hull.faces[k].size());
-		const Matrix3r second = axes * secondMoment(hull.vertices, hull.faces[k], axes.transpose() * middle) * axes.transpose();
+		const auto     moments = polytope::faceMoments(hull, k, area.normalized(), axes.transpose() * middle);
+		const Matrix3r second  = axes * (moments.second / moments.zeroth) * axes.transpose();
 		for (std::size_t force = 0; force < part.face.size(); ++force) {
-			const Place place { unitOfFace(convex, axes, area.normalized(), middle + margin * area.normalized(), centre,
-				                    mobility, second, polytope::FaceForce(force)),
+			const Place place { unitOfFace(convex, axes, outward, middle + margin * outward, centre, mobility, second,
+				                    polytope::FaceForce(force)),
 				area.norm() };
 			if (!(place.unit * place.area > worst[force])) continue;
 			worst[force]     = place.unit * place.area;
@@ -261,7 +246,7 @@ template <class Visit> void PotentialContacts::forSteps(Scene& scene, const Visi
 					if (!(place.unit > 0)) continue;
 					const Stiffness& stiff  = stiffness(part, places.size, partners, place, scene);
 					const Real       k      = math::max(stiff.normal, stiff.shear);
-					const Real       damper = 2 * damping * math::sqrt(k * body->state->mass);
+					const Real       damper = damping * criticalDamper(k, 1 / body->state->mass);
 					const Real       own    = polytope::safeTimeStep(k * place.unit, damper * place.unit);
 					if (own > 0) step = math::min(step, own);
 				}

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/TimeStepLimits.hpp"
 
-#include <core/InteractionLoop.hpp>
-
 #include <src/contact/OverlapFootprint.hpp>
 #include <src/numbers/PlaneAxes.hpp>
 #include <src/shear/ContactOutline.hpp>
@@ -10,11 +8,14 @@
 #include <src/timestep/TimeStepTolerances.hpp>
 
 #include "contact/PolytopeGeom.hpp"
+#include "host/InteractionLoops.hpp"
 #include "host/SpringsOfScene.hpp"
-#include "joint/RockJoint.hpp"
 #include "joint/RockJointDampers.hpp"
 #include "joint/RockJointLaw.hpp"
+#include "joint/RockJointPhys.hpp"
 #include "shape/ShapeOfBody.hpp"
+
+#include <optional>
 
 namespace yade {
 
@@ -24,24 +25,17 @@ polytope::Mobility mobilityOf(const Body& body)
 	polytope::Mobility mobility;
 	if (!isMovedByForces(body)) return mobility;
 	const auto root = [](Real inertia) { return inertia > 0 ? 1 / math::sqrt(inertia) : Real(0); };
-	const bool free = (state.blockedDOFs & State::DOF_RXRYRZ) == State::DOF_NONE;
 	for (int k = 0; k < 3; ++k) {
 		if (!(state.blockedDOFs & State::axisDOF(k, false))) mobility.translation[k] = root(state.mass);
-		// as NewtonIntegrator: with a rotation blocked, moments of inertia are those about the world's axes
 		if (!(state.blockedDOFs & State::axisDOF(k, true))) mobility.rotation(k, k) = root(state.inertia[k]);
 	}
-	if (free && body.isAspherical()) mobility.rotation = Matrix3r(state.ori.toRotationMatrix() * mobility.rotation);
+	if (turnsAboutOwnAxes(body)) mobility.rotation = Matrix3r(state.ori.toRotationMatrix() * mobility.rotation);
 	return mobility;
 }
 
 const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene)
 {
-	for (const auto& engine : scene.engines)
-		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
-			for (const auto& functor : loop->lawDispatcher->functors)
-				if (const auto* law = dynamic_cast<const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb*>(functor.get()))
-					return law;
-	return nullptr;
+	return firstFunctor<const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb>(scene, &InteractionLoop::lawDispatcher);
 }
 
 namespace {
@@ -126,14 +120,6 @@ namespace {
 		return force * polytope::rockingArms(body1, body2, geom.normal, geom.penetrationDepth);
 	}
 
-	/// Rotational stiffness of an intact joint that acts as a bond.
-	Matrix3r rotationStiffness(const PolytopeBond& bond, const Body& body1)
-	{
-		const Matrix3r axes    = (body1.state->ori * bond.frame1).toRotationMatrix();
-		const Vector3r angular = bond.angularStiffness();
-		return axes * angular.asDiagonal() * axes.transpose();
-	}
-
 	void addDampers(const PairInScene& pair, const RockJointPhys& phys, const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb& law,
 	        polytope::ContactSprings& springs)
 	{
@@ -202,8 +188,10 @@ namespace {
 				springs.shearStiffness  = phys->ks;
 				if (const auto* ours = dynamic_cast<const PolytopeGeom*>(geom)) {
 					const auto* joint        = dynamic_cast<const RockJointPhys*>(phys);
-					springs.rockingStiffness = joint && joint->bond ? rotationStiffness(*joint->bond, pair.body1)
-					                                                : rockingStiffness(pair, *ours);
+					springs.rockingStiffness = joint && joint->bond
+					        ? joint->bond->rotationStiffness(
+					                  (pair.body1.state->ori * joint->bond->frame1).toRotationMatrix())
+					        : rockingStiffness(pair, *ours);
 					if (joint && joint->twistingStiffness > 0) {
 						springs.twistingStiffness = joint->twistingStiffness;
 						springs.shearOffset       = joint->shearPoint - geom->contactPoint;
@@ -216,33 +204,52 @@ namespace {
 		return sum;
 	}
 
+	/// What each body that forces move has of contacts, bonds and bolts.
+	class StiffnessOfBodies {
+	public:
+		explicit StiffnessOfBodies(const Scene& scene) : scene_(scene), law_(dampingLaw(scene)), others_(springsOf(scene)) { }
+
+		long count() const { return long(scene_.bodies->size()); }
+		/// None for a body that has no contact, or cannot move.
+		std::optional<polytope::BodyStiffness> of(long id) const
+		{
+			const Body* const body = (*scene_.bodies)[Body::id_t(id)].get();
+			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene_, others_)) return std::nullopt;
+			const auto mobility = mobilityOf(*body);
+			if (!mobility.moves()) return std::nullopt;
+			return stiffnessOf(*body, mobility, scene_, law_, others_);
+		}
+
+	private:
+		const Scene&                                             scene_;
+		const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* const law_;
+		const AllSprings                                         others_;
+	};
+
 } // namespace
 
 ContactLimit contactLimit(const Scene& scene, Real below)
 {
-	const auto*  law    = dampingLaw(scene);
-	const auto   others = springsOf(scene);
-	ContactLimit limit;
-	const long   count = long(scene.bodies->size());
+	const StiffnessOfBodies bodies(scene);
+	const long              count = bodies.count();
+	ContactLimit            limit;
 #pragma omp parallel
 	{
 		ContactLimit own;
 #pragma omp for schedule(static) nowait
 		for (long id = 0; id < count; ++id) {
-			const Body* body = (*scene.bodies)[Body::id_t(id)].get();
-			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene, others)) continue;
-			const auto mobility = mobilityOf(*body);
-			if (!mobility.moves()) continue;
-			const auto stiffness = stiffnessOf(*body, mobility, scene, law, others);
+			const auto stiffness = bodies.of(id);
 			// most bodies are not the limiting one: bounds of the eigenvalues are cheap, and exclude them
-			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step))
+			if (!stiffness
+			        || polytope::safeTimeStep(stiffness->stiffnessAtMost(), stiffness->dampingAtMost())
+			                > math::min(below, own.step))
 				continue;
-			const Real all  = stiffness.stiffness();
-			const Real step = polytope::safeTimeStep(all, stiffness.damping());
+			const Real all  = stiffness->stiffness();
+			const Real step = polytope::safeTimeStep(all, stiffness->damping());
 			if (step > below) continue;
-			own.take(step, body->id);
-			if (own.body == body->id)
-				own.rocking = stiffness.stiffness(/*rocking*/ false) < (1 - polytope::tolerance::rockingShare) * all;
+			own.take(step, Body::id_t(id));
+			if (own.body == Body::id_t(id))
+				own.rocking = stiffness->stiffness(/*rocking*/ false) < (1 - polytope::tolerance::rockingShare) * all;
 		}
 #pragma omp critical(polytopeContactLimit)
 		if (own.step < limit.step || (own.step == limit.step && own.body < limit.body)) limit = own;
@@ -252,19 +259,13 @@ ContactLimit contactLimit(const Scene& scene, Real below)
 
 std::vector<Real> contactSteps(const Scene& scene)
 {
-	const auto*       law    = dampingLaw(scene);
-	const auto        others = springsOf(scene);
-	std::vector<Real> steps(scene.bodies->size(), std::numeric_limits<Real>::infinity());
-	const long        count = long(steps.size());
+	const StiffnessOfBodies bodies(scene);
+	std::vector<Real>       steps(scene.bodies->size(), std::numeric_limits<Real>::infinity());
+	const long              count = bodies.count();
 #pragma omp parallel for schedule(static)
-	for (long id = 0; id < count; ++id) {
-		const Body* body = (*scene.bodies)[Body::id_t(id)].get();
-		if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene, others)) continue;
-		const auto mobility = mobilityOf(*body);
-		if (!mobility.moves()) continue;
-		const auto stiffness   = stiffnessOf(*body, mobility, scene, law, others);
-		steps[std::size_t(id)] = polytope::safeTimeStep(stiffness.stiffness(), stiffness.damping());
-	}
+	for (long id = 0; id < count; ++id)
+		if (const auto stiffness = bodies.of(id))
+			steps[std::size_t(id)] = polytope::safeTimeStep(stiffness->stiffness(), stiffness->damping());
 	return steps;
 }
 

@@ -5,7 +5,5 @@ namespace yade {
 
 /// Defines `WorkerContacts` in yade._polytope (for PythonModule.cpp).
 void defineWorkerContacts();
-/// Defines `stiffnessSums` and `takeStiffnessSums`.
-void defineWorkerSums();
 
 } // namespace yade

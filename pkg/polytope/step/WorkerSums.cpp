@@ -2,7 +2,7 @@
 //
 // Sums of stiffness in a run on several processes (py/polytope/mpi): a worker knows all contacts of its own bodies alone, and the dampers of a contact
 // need the sums of both of its bodies.
-#include "step/WorkerContacts.hpp"
+#include "step/WorkerSums.hpp"
 
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>

@@ -26,7 +26,8 @@ from sites import Mutant, sites
 core = ('src/centre', 'src/contact', 'src/program', 'src/numbers', 'src/shape', 'src/timestep')
 plugin = tuple(
 	f'pkg/polytope/{name}.cpp'
-	for name in 'joint/RockJointLaw joint/RockJointPhysics joint/RockJointShear contact/PolytopeGeom contact/ContactOptions contact/ContactCounters'.split()
+	for name in '''joint/RockJointLaw joint/Ip2_RockJointMat_RockJointMat_RockJointPhys joint/RockJointShear
+	contact/PolytopeGeom contact/Ig2_Polytope_Polytope_PolytopeGeom contact/ContactCounters'''.split()
 )
 pluginTests = (
 	'test_contact_physics.py test_rock_joint.py test_joint_history.py test_bounds.py test_spring.py test_energy.py test_mechanical_energy.py'

@@ -108,9 +108,9 @@ def _goOn(contacts, linked, parts):
 	"""Bonds first: contacts ask for them."""
 	_findPairs()
 	for one in linked:
-		_betweenParts(one, bonds()._goesOnBetween, parts)
+		_betweenParts(one, bonds()._continueBetween, parts)
 	for contact in contacts:
-		_betweenParts(contact, _polytope.goesOnBetween, parts)
+		_betweenParts(contact, _polytope.continueBetween, parts)
 
 
 def _betweenParts(link, goesOn, parts):

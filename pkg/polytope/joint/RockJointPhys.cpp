@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "joint/RockJoint.hpp"
+#include "joint/RockJointPhys.hpp"
 
+#include "contact/PolytopeGeom.hpp"
 #include "host/Prefetch.hpp"
 
 #include <core/Scene.hpp>
@@ -55,6 +56,14 @@ Real RockJointPhys::yieldInTension(Real& normalForce)
 	lastingOpening += beyond;
 	normalForce = -bears;
 	return bears * beyond;
+}
+
+Real RockJointPhys::normalEnergy(const PolytopeGeom& geom, Real force) const
+{
+	if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && dilation == 0 && restOverlap == 0)
+		return kn * geom.energyPerStiffness;
+	if (laws.get()) return kn * energyPerStiffness(geom.penetrationDepth + dilation - restOverlap);
+	return kn > 0 ? force * force / (2 * kn) : Real(0);
 }
 
 bool RockJointPhys::bearsTension(Real force) const { return force <= presentTensileStrength() * contactArea; }

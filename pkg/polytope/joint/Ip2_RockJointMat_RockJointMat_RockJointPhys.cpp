@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "joint/RockJointPhysics.hpp"
+#include "joint/Ip2_RockJointMat_RockJointMat_RockJointPhys.hpp"
 
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
@@ -124,10 +124,8 @@ namespace {
 
 StiffnessRule Ip2_RockJointMat_RockJointMat_RockJointPhys::stiffnessRule(const Material& material1, const Material& material2) const
 {
-	const auto *joint1 = dynamic_cast<const RockJointMat*>(&material1), *joint2 = dynamic_cast<const RockJointMat*>(&material2);
-	if (!joint1 || !joint2) return StiffnessRule::Unknown;
-	return stiffnessPerArea && joint1->stiffnessPerArea && joint2->stiffnessPerArea ? StiffnessRule::PerArea
-	                                                                                : StiffnessRule::PerContact;
+	const StiffnessRule rule = stiffnessRuleOf(material1, material2);
+	return rule == StiffnessRule::PerArea && !stiffnessPerArea ? StiffnessRule::PerContact : rule;
 }
 
 void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(

@@ -17,6 +17,8 @@
 /// compressed contact has normalForce·normal > 0. Slip is body 2's relative to body 1.
 namespace yade {
 
+class PolytopeGeom;
+
 /// What the law remembers of a joint's last step where energies are tracked.
 struct LastStepOfJoint {
 	Vector3r arm1 = Vector3r::Zero(), arm2 = Vector3r::Zero(); ///< from the bodies' centres to the contact point
@@ -74,6 +76,8 @@ public:
 	bool ownHistory() const;
 	/// Energy over kn of a spring closed that far [m²].
 	Real energyPerStiffness(Real overlap) const;
+	/// Energy of the normal spring with this force [J]; a contact surface has the energy whose gradient its force is.
+	Real normalEnergy(const PolytopeGeom& geom, Real force) const;
 	bool hasOwnStrength() const;
 	/// All slip of a joint with a shear law of its own; the length of the slip of others [m].
 	Real slipLength() const;

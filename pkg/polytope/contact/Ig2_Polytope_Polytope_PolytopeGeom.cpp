@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/ContactOptions.hpp"
+#include "contact/Ig2_Polytope_Polytope_PolytopeGeom.hpp"
 
-#include <core/InteractionLoop.hpp>
 #include <core/Scene.hpp>
 
 #include <src/contact/Preconditions.hpp>
+#include <src/shape/Numbers.hpp>
 
-/// The settings of all contacts of a scene: attributes of its Ig2_Polytope_Polytope_PolytopeGeom, checked when they are set.
 namespace yade {
 
-namespace {
+POLYTOPE_CLASSES((Ig2_Polytope_Polytope_PolytopeGeom));
 
-	[[noreturn]] void refuseOption(const std::string& message) { throw std::invalid_argument(message); }
+namespace {
 
 	/// What the attribute's name stands for. `names`: as the message lists them.
 	template <class Value>
@@ -20,7 +19,7 @@ namespace {
 	{
 		for (const auto& [one, value] : all)
 			if (name == one) return value;
-		refuseOption(std::string(attribute) + ": must be " + names + ", not '" + name + "'");
+		polytope::refuse(std::string(attribute) + ": must be " + names + ", not '" + name + "'");
 	}
 
 } // namespace
@@ -30,9 +29,9 @@ polytope::ContactOptions Ig2_Polytope_Polytope_PolytopeGeom::checkedOptions() co
 	using namespace polytope;
 	ContactOptions result;
 	if (contactModel == "paper")
-		refuseOption("contactModel: 'paper' is 'boon2012' now, with the normal and the depth that the paper has");
+		polytope::refuse("contactModel: 'paper' is 'boon2012' now, with the normal and the depth that the paper has");
 	if (contactModel == "conservative")
-		refuseOption("contactModel: 'conservative' is 'surface' now, the default, which conserves energy");
+		polytope::refuse("contactModel: 'conservative' is 'surface' now, the default, which conserves energy");
 	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'surface', 'foundation', 'spring' or 'boon2012'",
 	        { { "surface", ContactModel::Foundation }, { "foundation", ContactModel::Foundation }, { "spring", ContactModel::Spring },
 	                { "boon2012", ContactModel::Boon2012 } });
@@ -44,7 +43,7 @@ polytope::ContactOptions Ig2_Polytope_Polytope_PolytopeGeom::checkedOptions() co
 	result.tolerance        = tolerance;
 	result.newtonTolerance  = newtonTolerance;
 	const std::string fault = faultOf(result);
-	if (!fault.empty()) refuseOption(fault);
+	if (!fault.empty()) polytope::refuse(fault);
 	return result;
 }
 
@@ -58,12 +57,7 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 
 const Ig2_Polytope_Polytope_PolytopeGeom* Ig2_Polytope_Polytope_PolytopeGeom::of(const Scene& scene)
 {
-	for (const auto& engine : scene.engines)
-		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
-			for (const auto& functor : loop->geomDispatcher->functors)
-				if (const auto* found = dynamic_cast<const Ig2_Polytope_Polytope_PolytopeGeom*>(functor.get()))
-					return found;
-	return nullptr;
+	return firstFunctor<const Ig2_Polytope_Polytope_PolytopeGeom>(scene, &InteractionLoop::geomDispatcher);
 }
 
 const Ig2_Polytope_Polytope_PolytopeGeom& Ig2_Polytope_Polytope_PolytopeGeom::orDefault(const Ig2_Polytope_Polytope_PolytopeGeom* found)
@@ -94,34 +88,14 @@ polytope::ContactOptions Ig2_Polytope_Polytope_PolytopeGeom::options(StiffnessRu
 	return options;
 }
 
-const Ig2_Polytope_Polytope_PolytopeGeom& PolytopeGeomFunctor::ofScene() const
+bool Ig2_Polytope_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	return Ig2_Polytope_Polytope_PolytopeGeom::orDefault(settings_.in(*scene));
-}
-
-polytope::ContactSettings PolytopeGeomFunctor::settings(StiffnessRule rule) const
-{
-	polytope::ContactSettings settings(ofScene().options(rule));
-	settings.energy = settings.energy || scene->trackEnergy;
-	return settings;
-}
-
-void PolytopeGeomFunctor::refuse(const std::string& name) const
-{
-	refuseOption(name + ": " + getClassName()
-	        + " has no settings of its own; set it in the scene's Ig2_Polytope_Polytope_PolytopeGeom, for all contacts");
-}
-
-void PolytopeGeomFunctor::pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& named)
-{
-	for (const char* name : names)
-		if (named.has_key(name)) refuse(name);
-}
-
-boost::python::object PolytopeGeomFunctor::settingOfScene(const char* name) const
-{
-	const auto& settings = Ig2_Polytope_Polytope_PolytopeGeom::orDefault(*Omega::instance().getScene());
-	return boost::python::object(boost::python::ptr(&settings)).attr(name);
+	const auto& convex1 = static_cast<const Polytope&>(*shape1).convex();
+	const auto& convex2 = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex1 || !convex2) return false; // no planes: nothing to touch
+	const Body1Frame frame1 { state1.pos, state1.ori.toRotationMatrix() };
+	return query(*convex1, frame1, *convex2, state1, state2, shift2, force, c);
 }
 
 } // namespace yade

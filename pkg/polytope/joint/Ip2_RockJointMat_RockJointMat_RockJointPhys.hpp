@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bond/BondsOfScene.hpp"
-#include "joint/RockJoint.hpp"
+#include "joint/RockJointPhys.hpp"
 #include "material/RockJointMat.hpp"
 #include "material/StiffnessRules.hpp"
 
