@@ -71,7 +71,7 @@ template <class Numbers, class Exact> Real distance(const Numbers& numbers, cons
 template <int D> ExactCells<D> exactOf(const PlaneRows<Real, D>& rows, Real size)
 {
 	const double  twin = double(tolerance::twinPlanes);
-	ExactCells<D> exact(rows.planes, twin, twin * double(size)), other(rows.planes, twin, twin * double(size), true);
+	ExactCells<D> exact(rows.planes, { twin, twin * double(size), false }), other(rows.planes, { twin, twin * double(size), true });
 	exact.measure(3 * double(size));
 	other.measure(3 * double(size));
 	const auto mean = [](auto& own, const auto& its) {

@@ -35,46 +35,46 @@ public:
 	int                              pieces   = 0;
 	Fine                             farthest = 0; ///< largest distance of a vertex of the overlap from the origin
 
-	/// Rows as they stand, as exact numbers; neutral ones are left out. If normals of planes differ by no more than `normal` and offsets by no
-	/// more than `offset`, one is kept: that of the body that goes first.
-	template <class R>
-	explicit ExactCells(const PairPlanes<R, D>& rows, double normal = 0, double offset = 0, bool secondGoesFirst = false)
+	/// Planes that count as one: their normals differ by no more than `normal` and their offsets by no more than `offset`. The one that is kept is that of
+	/// the body that goes first.
+	struct Twins {
+		double normal = 0, offset = 0;
+		bool   secondGoesFirst = false;
+	};
+	bool sharesPlanes = false; ///< planes of both bodies are twins
+
+	/// Rows as they stand, as exact numbers; neutral ones are left out.
+	template <class R> explicit ExactCells(const PairPlanes<R, D>& rows) : ExactCells(rows, Twins()) { }
+	template <class R> ExactCells(const PairPlanes<R, D>& rows, const Twins& twins)
 	{
-		std::vector<Plane> kept[2];
-		for (int turn = 0; turn < 2; ++turn) {
-			const int body = secondGoesFirst ? 1 - turn : turn;
+		std::vector<Plane> all[2];
+		for (int body = 0; body < 2; ++body)
 			for (int i = rows.begin(body); i < rows.end(body); ++i) {
 				if (rows.offset[i] >= R(padOffset) / 2) continue;
 				Plane plane;
 				for (int k = 0; k < D; ++k)
 					plane.normal[k] = Fine(rows.normal[k][i]);
 				plane.offset = Fine(rows.offset[i]);
-				bool there   = false;
-				for (const auto& side : kept)
-					for (const Plane& other : side)
-						there = there || coincide(plane, other, normal, offset);
-				if (!there) kept[body].push_back(plane);
+				all[body].push_back(plane);
 			}
-		}
-		first  = int(kept[0].size());
-		planes = kept[0];
-		planes.insert(planes.end(), kept[1].begin(), kept[1].end());
+		keep(all, twins);
 	}
 
 	/// The pair's planes to 113 digits, in world axes from `origin`, a point from body 1's centre.
-	ExactCells(const Pair& pair, const Vector3& origin)
+	ExactCells(const Pair& pair, const Vector3& origin, const Twins& twins)
 	{
 		const PrecisePairOf<Quad> exact(pair);
 		const QuadVector          from = precise(origin);
+		std::vector<Plane>        all[2];
 		for (int body = 0; body < 2; ++body)
 			for (const auto& own : exact.planes[body]) {
 				Plane plane;
 				for (int k = 0; k < D; ++k)
 					plane.normal[k] = fine(own.normal[k]);
 				plane.offset = fine(own.slack(from));
-				planes.push_back(plane);
-				first += body == 0;
+				all[body].push_back(plane);
 			}
+		keep(all, twins);
 	}
 
 	/// Everything; `reach`: larger than the overlap is far from the origin.
@@ -107,12 +107,31 @@ private:
 		return Fine(a) + Fine(b) + Fine(c);
 	}
 
-	static bool coincide(const Plane& one, const Plane& other, double normal, double offset)
+	void keep(const std::vector<Plane> (&all)[2], const Twins& twins)
+	{
+		std::vector<Plane> kept[2];
+		for (int turn = 0; turn < 2; ++turn) {
+			const int body = twins.secondGoesFirst ? 1 - turn : turn;
+			for (const Plane& plane : all[body]) {
+				bool there[2] = { false, false };
+				for (int side = 0; side < 2; ++side)
+					for (const Plane& other : kept[side])
+						there[side] = there[side] || coincide(plane, other, twins);
+				sharesPlanes = sharesPlanes || there[1 - body];
+				if (!there[0] && !there[1]) kept[body].push_back(plane);
+			}
+		}
+		first  = int(kept[0].size());
+		planes = kept[0];
+		planes.insert(planes.end(), kept[1].begin(), kept[1].end());
+	}
+
+	static bool coincide(const Plane& one, const Plane& other, const Twins& twins)
 	{
 		Fine square = 0;
 		for (int k = 0; k < D; ++k)
 			square += (one.normal[k] - other.normal[k]) * (one.normal[k] - other.normal[k]);
-		return square <= Fine(normal) * Fine(normal) && size(one.offset - other.offset) <= Fine(offset);
+		return square <= Fine(twins.normal) * Fine(twins.normal) && size(one.offset - other.offset) <= Fine(twins.offset);
 	}
 
 	Point difference(int i, int j) const

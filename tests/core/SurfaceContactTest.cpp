@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/SurfaceContact.hpp"
+#include "ContactLoad.hpp"
 #include "SurfaceOfPair.hpp"
 
 #include <gtest/gtest.h>
@@ -19,19 +20,7 @@ ContactSettings with(ContactModel model, const ClosureLaw* closure = nullptr)
 	return settings;
 }
 
-/// The force of a law with stiffness one, and its moment about body 1's centre with the part about the normal.
-struct Load {
-	Vector3 force, moment;
-	Real    energy;
-
-	Load(const ContactResult& result, ContactModel model, const ClosureLaw& law = ClosureLaw())
-	{
-		const Real stiffness = model == ContactModel::Foundation ? result.area : Real(1);
-		force                = stiffness * law.pressure(result.depth) * result.normal;
-		moment               = result.point.cross(force) + result.turningArm * force;
-		energy               = stiffness * result.energy * law.tangent(result.depth);
-	}
-};
+using Load = ContactLoad;
 
 constexpr ContactModel models[] = { ContactModel::Foundation, ContactModel::Spring };
 

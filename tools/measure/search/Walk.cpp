@@ -2,6 +2,7 @@
 #include "Walk.hpp"
 
 #include "Certificate.hpp"
+#include "ExactSurface.hpp"
 
 #include <cstdarg>
 #include <cstdio>
@@ -41,16 +42,14 @@ namespace {
 		/// Begins with the poses of one moving pair: chooses the settings of all of them and clears the memory.
 		void start(Random& random)
 		{
-			paper_                   = ContactSettings();
-			paper_.geometryAcrossGap = random() % 4 == 0;
-			paper_.section           = random() % 4 == 0;
-			spring_                  = paper_;
-			spring_.contactModel     = ContactModel::Spring;
+			settings_                   = ContactSettings();
+			settings_.geometryAcrossGap = random() % 4 == 0;
+			settings_.section           = random() % 4 == 0;
 			for (PairMemory& memory : memory_)
 				memory = PairMemory();
 		}
 
-		void examine(const Pair& pair, int pose)
+		void examine(const Pair& pair, int pose, Random& random)
 		{
 			pose_ = pose;
 			++tally_.pairs;
@@ -81,17 +80,31 @@ namespace {
 			else if (certificate.lower > level + allowed) ++tally_.gaps;
 			else ++tally_.undecided;
 
-			PairMemory cold[4];
-			checkPaper(pair, certificate, query(pair, paper_, &cold[0]), "cold");
-			checkPaper(pair, certificate, query(pair, paper_, &memory_[0]), "warm");
-			checkSpring(pair, certificate, query(pair, spring_, &cold[1]), "spring, cold");
-			checkSpring(pair, certificate, query(pair, spring_, &memory_[1]), "spring, warm");
 			const Pair  other = swapped(pair);
 			Certificate exchanged(other);
 			exchanged.lower = certificate.lower;
 			exchanged.upper = certificate.upper;
-			checkPaper(other, exchanged, query(other, paper_, &cold[2]), "exchanged");
-			checkSpring(other, exchanged, query(other, spring_, &cold[3]), "spring, exchanged");
+			std::vector<Answer> answers;
+			for (int m = 0; m < modelCount; ++m) {
+				settings_.contactModel = models[m];
+				PairMemory          cold, ofOther;
+				const ContactResult results[] = { query(pair, settings_, &cold), query(pair, settings_, &memory_[m]),
+					query(other, settings_, &ofOther) };
+				for (const Way way : { Way::Cold, Way::Warm, Way::Exchanged }) {
+					const bool           turned = way == Way::Exchanged;
+					const ContactResult& result = results[int(way)];
+					check(turned ? other : pair, turned ? exchanged : certificate, result, { models[m], way });
+					if (!hasSurface(models[m]) || !result.inContact) continue;
+					const Vector3 about = turned ? Vector3(solved.point - pair.centre2) : solved.point;
+					answers.push_back({ models[m], way, ContactLoad(result, models[m], ClosureLaw(), about),
+					        result.status != ContactStatus::NoDirection });
+					if (!turned) continue;
+					answers.back().load.force *= -1;
+					answers.back().load.moment *= -1;
+				}
+			}
+			const bool drawn = random() % overlapsPerExact == 0;
+			checkLoads(pair, solved.point, -Real(certificate.upper), answers, drawn, random);
 		}
 
 		void report(Defect defect, const char* way, const std::string& what)
@@ -107,8 +120,77 @@ namespace {
 		int                   pose_ = -1;
 		Tally&                tally_;
 		std::vector<Finding>& findings_;
-		ContactSettings       paper_, spring_;
-		PairMemory            memory_[2];
+		ContactSettings       settings_;
+		PairMemory            memory_[modelCount];
+
+		enum class Way : int { Cold, Warm, Exchanged };
+
+		struct Question {
+			ContactModel model;
+			Way          way;
+
+			std::string name() const
+			{
+				const char* const ways[] = { "cold", "warm", "exchanged" };
+				return std::string(modelName(model)) + ", " + ways[int(way)];
+			}
+		};
+
+		/// An answer of a model with a surface, as that of the pair itself, about the program's point.
+		struct Answer : Question {
+			ContactLoad load;
+			bool        directed; ///< else pressures cancel, and of their moment a contact has none
+
+			Answer(ContactModel model, Way way, const ContactLoad& load_, bool directed_)
+			        : Question { model, way }, load(load_), directed(directed_)
+			{
+			}
+		};
+
+		struct Errors {
+			Real energy, force, moment;
+
+			Errors(const Answer& answer, const ContactLoad& load, Real energyUnit, Real forceUnit, Real momentUnit)
+			        : energy(std::abs(answer.load.energy - load.energy) / energyUnit),
+			          force((answer.load.force - load.force).norm() / forceUnit),
+			          moment(answer.directed ? (answer.load.moment - load.moment).norm() / momentUnit : 0)
+			{
+			}
+			bool within(Real most) const { return energy <= most && force <= most && moment <= most; }
+		};
+
+		/// Compares answers with each other, and with the exact surface if this pair is drawn or the answers differ.
+		void checkLoads(const Pair& pair, const Vector3& origin, Real deepest, const std::vector<Answer>& answers, bool drawn, Random& random)
+		{
+			if (answers.empty() || !(deepest > 0) || !(roundingOf(pair, deepest) <= coarsestRounding)) return;
+			bool alike = true;
+			for (std::size_t i = 1; i < answers.size(); ++i) {
+				const Answer &one = answers[i - 1], &other = answers[i];
+				if (one.model != other.model) continue;
+				const Real unit = roundingOf(pair, deepest) * one.load.energy, force = unit / deepest;
+				alike           = alike && Errors(other, one.load, unit, force, force * pair.size()).within(allowedUnits(one.model));
+			}
+			if (!drawn && alike) return;
+			++tally_.compared;
+			tally_.asked += !alike;
+			const ExactSurface exact = exactSurface(pair, origin, deepest, random);
+			tally_.ridges += exact.ridge;
+			for (const Answer& answer : answers) {
+				const ExactLoad& own = answer.model == ContactModel::Spring ? exact.spring : exact.foundation;
+				const Errors     errors(answer, own.load, own.energyUnit, own.forceUnit, own.momentUnit);
+				const Real       most = allowedUnits(answer.model);
+				const auto       held = [&](Defect defect, Real error, Real& worst, Real unit, Real whole) {
+                                        worst = std::max(worst, error / most);
+                                        if (error <= most) return;
+                                        report(defect, answer.name().c_str(),
+                                                text("off by %g of %g, where %g is allowed, s* %g, size %g", error * unit, whole, most * unit,
+                                                        -deepest, pair.size()));
+				};
+				held(Defect::Energy, errors.energy, tally_.worstEnergy, own.energyUnit, own.load.energy);
+				held(Defect::Force, errors.force, tally_.worstForce, own.forceUnit, own.load.force.norm());
+				held(Defect::Moment, errors.moment, tally_.worstMoment, own.momentUnit, own.load.moment.norm());
+			}
+		}
 
 		/// No answer, or one that Newton's method did not find. That no direction separates the bodies is an answer where it is
 		/// proved: s* is then that of one body alone.
@@ -119,13 +201,15 @@ namespace {
 			return !answered(status) || status == ContactStatus::CentreByIpopt;
 		}
 
-		/// Checks that both models must pass. `mayCancel`: pressures of a contact surface may, where one body is in the other or pierces it.
-		void checkAnswer(
-		        const Pair& pair, const Certificate& certificate, const ContactResult& result, const char* way, bool mayCancel)
+		void check(const Pair& pair, const Certificate& certificate, const ContactResult& result, const Question& question)
 		{
 			++tally_.queries;
-			const Real allowed   = allowedError(pair);
-			const bool cancelled = mayCancel && result.status == ContactStatus::NoDirection;
+			++tally_.statuses[std::size_t(std::find(models, models + modelCount, question.model) - models)][std::size_t(result.status)];
+			const std::string name    = question.name();
+			const char* const way     = name.c_str();
+			const Real        allowed = allowedError(pair);
+			// pressures of a contact surface may cancel, where one body is in the other or pierces it
+			const bool cancelled = hasSurface(question.model) && result.status == ContactStatus::NoDirection;
 			if (!cancelled && gaveUp(pair, certificate, result.status))
 				report(Defect::NotConverged, way, statusName(result.status));
 			if (!finite(result)) report(Defect::NotFinite, way, "a number is none");
@@ -141,10 +225,12 @@ namespace {
 				        text("s* %.17g instead of %.17Lg, size %g", result.infeasibility, certificate.upper, pair.size()));
 			tally_.mostPivots       = std::max(tally_.mostPivots, result.simplexPivots);
 			tally_.mostIterations   = std::max(tally_.mostIterations, result.newtonIterations);
-			const Real        level = -paper_.tolerance * pair.size();
+			const Real        level = -settings_.tolerance * pair.size();
 			const std::string s     = described(pair, certificate, result);
 			if (!result.inContact && certificate.upper < level - allowed) report(Defect::Miss, way, s);
 			if (result.inContact && certificate.lower > level + allowed) report(Defect::FalseContact, way, s);
+			if (!hasSurface(question.model)) checkCentre(pair, certificate, result, way);
+			else if (result.inContact && !(result.energy > 0)) report(Defect::NoEnergy, way, s);
 		}
 
 		static std::string described(const Pair& pair, const Certificate& certificate, const ContactResult& result)
@@ -153,10 +239,8 @@ namespace {
 			        pair.size());
 		}
 
-		void checkPaper(const Pair& pair, const Certificate& certificate, const ContactResult& result, const char* way)
+		void checkCentre(const Pair& pair, const Certificate& certificate, const ContactResult& result, const char* way)
 		{
-			checkAnswer(pair, certificate, result, way, false);
-			++tally_.paper[std::size_t(result.status)];
 			const Real        allowed = allowedError(pair);
 			const std::string s       = described(pair, certificate, result);
 			if (!result.inContact || (!answered(result.status) && result.status != ContactStatus::NoDirection))
@@ -166,13 +250,6 @@ namespace {
 			if (!(loose > 0 && loose < 0.1)) return;
 			const Extended decrement = certificate.centreDecrement(result.point);
 			if (!(decrement <= loose)) report(Defect::Centre, way, s + text(", decrement %Lg instead of %g", decrement, loose));
-		}
-
-		void checkSpring(const Pair& pair, const Certificate& certificate, const ContactResult& result, const char* way)
-		{
-			checkAnswer(pair, certificate, result, way, true);
-			++tally_.spring[std::size_t(result.status)];
-			if (result.inContact && !(result.energy > 0)) report(Defect::NoEnergy, way, described(pair, certificate, result));
 		}
 	};
 
@@ -204,9 +281,17 @@ const char* defectName(Defect defect)
 		case Defect::NotConverged: return "not converged";
 		case Defect::NotFinite: return "not finite";
 		case Defect::NoEnergy: return "no energy";
+		case Defect::Energy: return "wrong volume";
+		case Defect::Force: return "wrong force";
+		case Defect::Moment: return "wrong moment";
 		case Defect::Shape: return "shape";
 	}
 	return "unknown";
+}
+
+const char* modelName(ContactModel model)
+{
+	return model == ContactModel::Boon2012 ? "boon2012" : model == ContactModel::Foundation ? "foundation" : "spring";
 }
 
 void Tally::add(const Tally& other)
@@ -217,13 +302,18 @@ void Tally::add(const Tally& other)
 	queries += other.queries;
 	exact += other.exact;
 	undecided += other.undecided;
-	for (std::size_t i = 0; i < paper.size(); ++i) {
-		paper[i] += other.paper[i];
-		spring[i] += other.spring[i];
-	}
+	compared += other.compared;
+	asked += other.asked;
+	ridges += other.ridges;
+	for (std::size_t m = 0; m < statuses.size(); ++m)
+		for (std::size_t i = 0; i < statuses[m].size(); ++i)
+			statuses[m][i] += other.statuses[m][i];
 	for (std::size_t i = 0; i < defects.size(); ++i)
 		defects[i] += other.defects[i];
 	worstInfeasibility = std::max(worstInfeasibility, other.worstInfeasibility);
+	worstEnergy        = std::max(worstEnergy, other.worstEnergy);
+	worstForce         = std::max(worstForce, other.worstForce);
+	worstMoment        = std::max(worstMoment, other.worstMoment);
 	mostPivots         = std::max(mostPivots, other.mostPivots);
 	mostIterations     = std::max(mostIterations, other.mostIterations);
 }
@@ -240,7 +330,7 @@ void walk(int family, long trial, unsigned long seed, Tally& tally, std::vector<
 			examiner.start(random);
 			const Real stride = decades(random, -9, Real(-0.5));
 			for (const int end = pose + 1 + int(random() % 8); pose < end && pose < posesPerTrial; ++pose) {
-				examiner.examine(pair, pose);
+				examiner.examine(pair, pose, random);
 				step(pair, stride, random);
 			}
 		}

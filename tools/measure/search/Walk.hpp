@@ -19,11 +19,18 @@ enum class Defect : int {
 	Centre,        ///< contact reported, but the point is not the analytic centre, and the status does not tell
 	NotConverged,  ///< a query without an answer, or one whose contact point Newton's method did not find
 	NotFinite,     ///< a value that is not finite, a normal that is not unit, a depth that is not positive
-	NoEnergy,      ///< spring: a contact without energy
+	NoEnergy,      ///< foundation, spring: a contact without energy
+	Energy,        ///< foundation, spring: the energy (volume), the force or the moment off by more than rounding
+	Force,
+	Moment,
 	Shape,         ///< a body that was refused, or failed in construction
 };
 constexpr int defectCount = int(Defect::Shape) + 1;
 const char*   defectName(Defect defect);
+
+constexpr ContactModel models[]   = { ContactModel::Boon2012, ContactModel::Foundation, ContactModel::Spring };
+constexpr int          modelCount = 3;
+const char*            modelName(ContactModel model);
 
 struct Finding {
 	int         family;
@@ -35,16 +42,22 @@ struct Finding {
 
 /// Sums of any number of trials; the order does not matter.
 struct Tally {
-	long                                 pairs = 0, overlaps = 0, gaps = 0, queries = 0, exact = 0, undecided = 0;
-	std::array<long, contactStatusCount> paper {}, spring {};
-	std::array<long, defectCount>        defects {};
-	Real                                 worstInfeasibility = 0; ///< largest error of s* over rounding × reach
-	int                                  mostPivots = 0, mostIterations = 0;
+	long pairs = 0, overlaps = 0, gaps = 0, queries = 0, exact = 0, undecided = 0;
+	long compared = 0, asked = 0; ///< overlaps whose surface was compared with the exact one; those of them where one answer was unlike another
+	long ridges   = 0;            ///< of the compared: ExactSurface::ridge
+	std::array<std::array<long, contactStatusCount>, modelCount> statuses {};
+	std::array<long, defectCount>                                defects {};
+	Real worstInfeasibility = 0;                            ///< largest error of s* over rounding × reach
+	Real worstEnergy = 0, worstForce = 0, worstMoment = 0;  ///< largest errors over what is allowed
+	int  mostPivots = 0, mostIterations = 0;
 
 	void add(const Tally& other);
 };
 
 constexpr int posesPerTrial = 200;
+
+/// Of so many overlaps, one has its contact surface compared with the exact one, drawn with the trial's random numbers; besides all whose answers differ.
+constexpr int overlapsPerExact = 1000;
 
 /// Trial number `trial` of a family: posesPerTrial pairs.
 void walk(int family, long trial, unsigned long seed, Tally& tally, std::vector<Finding>& findings);
