@@ -132,7 +132,7 @@ buildWith() { # TARGET
 	if [ "$precision" = double ]; then build overlay "$1"; else build && buildPrecision double "$1"; fi
 }
 
-# Random pairs against an exact predicate; a log beside what it prints.
+# Random pairs against exact arithmetic; a log beside what it prints.
 search() {
 	local logFile
 	logFile=$project/output/search/log-$(date -u +%Y%m%d-%H%M%S).txt

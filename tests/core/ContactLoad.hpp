@@ -12,8 +12,8 @@ struct ContactLoad {
 	Real    energy = 0;
 
 	ContactLoad() = default;
-	ContactLoad(
-	        const ContactResult& result, ContactModel model, const ClosureLaw& law = ClosureLaw(), const Vector3& about = Vector3::Zero())
+	ContactLoad(const ContactResult& result, ContactModel model, const ClosureLaw& law = ClosureLaw(),
+	        const Vector3& about = Vector3::Zero())
 	{
 		const Real stiffness = model == ContactModel::Foundation ? result.area : Real(1);
 		force                = stiffness * law.pressure(result.depth) * result.normal;

@@ -11,26 +11,29 @@ using namespace samples;
 
 namespace {
 
-	constexpr ContactModel models[] = { ContactModel::Foundation, ContactModel::Spring };
+	/// By how much planes may be off: by as many roundings of the pair's reach as they are placed with, and each normal by what turning it rounds.
+	constexpr int placed = 8, turned = 2;
 
-	/// What is compared, per metre of thickness in 2-D where the stiffness is per area.
 	struct Loads {
-		ContactLoad of[2]; ///< foundation, spring
+		ContactLoad foundation, spring;
 	};
 
 	template <class Numbers> Vector3 vectorOf(const Numbers& numbers)
 	{
-		if constexpr (std::tuple_size<Numbers>::value == 1) return { 0, 0, Real(numbers[0]) };
-		Vector3 out = Vector3::Zero();
+		Vector3           out  = Vector3::Zero();
+		const std::size_t last = numbers.size() == 1 ? 2 : 0; // a turn in the plane is about z
 		for (std::size_t k = 0; k < numbers.size(); ++k)
-			out[Eigen::Index(k)] = Real(numbers[k]);
+			out[Eigen::Index(last + k)] = Real(numbers[k]);
 		return out;
 	}
 
-	/// By the definitions in contact/SurfaceContact.hpp.
-	template <int D> Loads loadsOf(const ExactCells<D>& cells)
+	/// By the definitions in contact/SurfaceContact.hpp. Near planes first: the others then soon leave nothing of a piece.
+	template <int D> Loads loadsOf(ExactCells<D> cells, const Pair& pair)
 	{
-		Loads      loads;
+		const auto nearer = [](const auto& a, const auto& b) { return a.offset < b.offset; };
+		std::stable_sort(cells.planes.begin(), cells.planes.begin() + cells.first, nearer);
+		std::stable_sort(cells.planes.begin() + cells.first, cells.planes.end(), nearer);
+		cells.measure(3 * double(pair.size()));
 		const Fine mean = cells.level / cells.volume, weight = 36 * mean / cells.volume;
 		auto       force = cells.deeper;
 		auto       turn  = cells.deeperTurn;
@@ -38,86 +41,76 @@ namespace {
 			force[k] = weight * (force[k] - mean * cells.force[k]);
 		for (std::size_t k = 0; k < turn.size(); ++k)
 			turn[k] = weight * (turn[k] - mean * cells.moment[k]);
-		loads.of[0].force  = 2 * vectorOf(cells.force);
-		loads.of[0].moment = 2 * vectorOf(cells.moment);
-		loads.of[0].energy = Real(2 * cells.volume);
-		loads.of[1].force  = vectorOf(force);
-		loads.of[1].moment = vectorOf(turn);
-		loads.of[1].energy = Real(18 * mean * mean);
+		const Real thickness = D == 2 ? std::min(pair.shape[0]->thickness(), pair.shape[1]->thickness()) : Real(1);
+		Loads      loads;
+		loads.foundation.force  = 2 * thickness * vectorOf(cells.force);
+		loads.foundation.moment = 2 * thickness * vectorOf(cells.moment);
+		loads.foundation.energy = 2 * thickness * Real(cells.volume);
+		loads.spring.force      = vectorOf(force);
+		loads.spring.moment     = vectorOf(turn);
+		loads.spring.energy     = Real(18 * mean * mean);
 		return loads;
 	}
 
-	/// Near planes first: the others then leave nothing of a piece soon.
-	template <int D> Loads measured(ExactCells<D> cells, Real size)
+	ContactLoad meanOf(ContactLoad one, const ContactLoad& other)
 	{
-		const auto nearer = [](const auto& a, const auto& b) { return a.offset < b.offset; };
-		std::stable_sort(cells.planes.begin(), cells.planes.begin() + cells.first, nearer);
-		std::stable_sort(cells.planes.begin() + cells.first, cells.planes.end(), nearer);
-		cells.measure(3 * double(size));
-		return loadsOf(cells);
+		one.force  = (one.force + other.force) / 2;
+		one.moment = (one.moment + other.moment) / 2;
+		return one;
 	}
 
 	/// The mean of both orders in which planes of both bodies that coincide may be taken.
-	template <int D> Loads meanOfOrders(const Pair& pair, const Vector3& origin)
+	template <int D> Loads exactLoads(const Pair& pair, const Vector3& origin)
 	{
-		const double        twin = double(tolerance::twinPlanes), size = double(pair.size());
-		const ExactCells<D> cells(pair, origin, { twin, twin * size, false });
-		Loads               loads = measured(cells, pair.size());
+		const double        twin = double(tolerance::twinPlanes), offset = twin * double(pair.size());
+		const ExactCells<D> cells(pair, origin, { twin, offset, false });
+		const Loads         loads = loadsOf(cells, pair);
 		if (!cells.sharesPlanes) return loads;
-		const Loads other = measured(ExactCells<D>(pair, origin, { twin, twin * size, true }), pair.size());
-		for (int m = 0; m < 2; ++m) {
-			loads.of[m].force  = (loads.of[m].force + other.of[m].force) / 2;
-			loads.of[m].moment = (loads.of[m].moment + other.of[m].moment) / 2;
-		}
-		return loads;
+		const Loads other = loadsOf(ExactCells<D>(pair, origin, { twin, offset, true }), pair);
+		return { meanOf(loads.foundation, other.foundation), meanOf(loads.spring, other.spring) };
 	}
 
-	template <int D> ExactSurface surfaceOf(const Pair& pair, const Vector3& origin, const Real& deepest, std::mt19937_64& random)
+	template <int D> Loads loadsWithErrors(const Pair& pair, const Vector3& origin, std::mt19937_64& random)
 	{
-		Loads loads = meanOfOrders<D>(pair, origin), moved[2];
-		// planes off by up to as many roundings as they may be placed with, and by as much to the other side
-		constexpr int     placed = 8;
-		ExactCells<D>     cells(pair, origin, {});
-		std::vector<Real> errors;
-		for (std::size_t i = 0; i < cells.planes.size(); ++i)
-			errors.push_back(uniform(random, -placed, placed) * tolerance::rounding * pair.reach());
-		for (int side = 0; side < 2; ++side) {
-			ExactCells<D> off = cells;
-			for (std::size_t i = 0; i < errors.size(); ++i)
-				off.planes[i].offset += Fine(side == 0 ? errors[i] : -errors[i]);
-			moved[side] = measured(off, pair.size());
+		ExactCells<D> cells(pair, origin, {});
+		for (auto& plane : cells.planes) {
+			for (Fine& component : plane.normal)
+				component += uniform(random, -turned, turned) * tolerance::rounding;
+			plane.offset += uniform(random, -placed, placed) * tolerance::rounding * pair.reach();
 		}
-		const Real   thickness = D == 2 ? std::min(pair.shape[0]->thickness(), pair.shape[1]->thickness()) : Real(1);
-		ExactSurface out;
-		out.ridge = false;
-		for (int m = 0; m < 2; ++m) {
-			ExactLoad&         exact = m == 0 ? out.foundation : out.spring;
-			const ContactLoad& load  = loads.of[m];
-			Real               force = 0, moment = 0;
-			for (const Loads& other : moved) {
-				force  = std::max(force, (other.of[m].force - load.force).norm());
-				moment = std::max(moment, (other.of[m].moment - load.moment).norm());
-			}
-			// bodies moved against each other by δ change the energy by no more than planes that are off by δ do
-			const Real unit   = roundingOf(pair, deepest);
-			const Real thick  = models[m] == ContactModel::Foundation ? thickness : Real(1);
-			const Real scale  = load.energy / deepest;
-			out.ridge         = out.ridge || force > Real(1e-3) * scale;
-			exact.load.force  = thick * load.force;
-			exact.load.moment = thick * load.moment;
-			exact.load.energy = thick * load.energy;
-			exact.energyUnit  = thick * load.energy * unit;
-			exact.forceUnit   = thick * (scale * unit + force / placed);
-			exact.momentUnit  = thick * (scale * pair.size() * unit + moment / placed);
-		}
-		return out;
+		return loadsOf(cells, pair);
+	}
+
+	Loads exactLoadsOf(const Pair& pair, const Vector3& origin)
+	{
+		return pair.dimension() == 3 ? exactLoads<3>(pair, origin) : exactLoads<2>(pair, origin);
 	}
 
 } // namespace
 
-ExactSurface exactSurface(const Pair& pair, const Vector3& origin, const Real& deepest, std::mt19937_64& random)
+ExactSurface::ExactSurface(const Pair& pair, const Vector3& origin, const Real& deepest)
+        : pair_(pair), origin_(origin), deepest_(deepest), foundation_(ContactLoad(), pair, deepest), spring_(ContactLoad(), pair, deepest)
 {
-	return pair.dimension() == 3 ? surfaceOf<3>(pair, origin, deepest, random) : surfaceOf<2>(pair, origin, deepest, random);
+	const Loads loads = exactLoadsOf(pair, origin);
+	foundation_       = LoadWithUnits(loads.foundation, pair, deepest);
+	spring_           = LoadWithUnits(loads.spring, pair, deepest);
+}
+
+void ExactSurface::drawErrors(std::mt19937_64& random)
+{
+	const bool  solid = pair_.dimension() == 3;
+	const Loads moved = solid ? loadsWithErrors<3>(pair_, origin_, random) : loadsWithErrors<2>(pair_, origin_, random);
+	const auto  add   = [&](LoadWithUnits& own, const ContactLoad& other) {
+                const LoadWithUnits smooth(own.load, pair_, deepest_);
+                // a change of the force acts somewhere on the overlap
+                const Real size = pair_.size(), arm = (other.moment - own.load.moment).norm() / size,
+                           change = std::max((other.force - own.load.force).norm(), arm) / placed;
+                own.forceUnit     = std::max(own.forceUnit, smooth.forceUnit + change);
+                own.momentUnit    = std::max(own.momentUnit, smooth.momentUnit + change * size);
+                ridge_            = ridge_ || change > 10 * smooth.forceUnit;
+	};
+	add(foundation_, moved.foundation);
+	add(spring_, moved.spring);
 }
 
 } // namespace polytope::search

@@ -36,7 +36,7 @@ struct Options {
 const char* usage
         = "./run search [--quick] [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
           "Compares random pairs with exact arithmetic; ends with 1 if there is a defect.\n"
-          "  --quick    250 000 pairs: seconds to a minute\n"
+          "  --quick    250 000 pairs: a minute\n"
           "  --pairs    how many pairs (10^6), up to whole trials of each family; what is found depends on this and the seed\n"
           "  --seed     of the random numbers (1)\n"
           "  --threads  how many (0: as many as the machine has)\n"
@@ -166,9 +166,9 @@ std::string line(const char* name, const Tally& t)
 	long defects = 0;
 	for (long count : t.defects)
 		defects += count;
-	std::snprintf(text, sizeof text, "%-19s %9ld %9ld %9ld %7ld %7ld %10ld %6.1f %8ld %7.2f %6.2f %7.2f %6d %10d %7ld\n", name,
-	        t.pairs, t.overlaps, t.gaps, t.undecided, t.exact, t.queries, double(t.worstInfeasibility), t.compared,
-	        double(t.worstEnergy), double(t.worstForce), double(t.worstMoment), t.mostPivots, t.mostIterations, defects);
+	std::snprintf(text, sizeof text, "%-19s %9ld %9ld %9ld %7ld %7ld %10ld %6.1f %8ld %7.2f %6.2f %7.2f %6d %10d %7ld\n", name, t.pairs,
+	        t.overlaps, t.gaps, t.undecided, t.exact, t.queries, double(t.worstInfeasibility), t.compared, double(t.worstEnergy),
+	        double(t.worstForce), double(t.worstMoment), t.mostPivots, t.mostIterations, defects);
 	return text;
 }
 
@@ -202,7 +202,9 @@ std::string report(const Options& options, const std::vector<Tally>& tallies, co
 	       "113-digit arithmetic; volume, force, moment: largest errors, over what is allowed. They are one of "
 	    << overlapsPerExact << " that overlap, drawn,\nand all whose answers were not alike within rounding, " << all.asked
 	    << ". Of all compared, " << all.ridges
-	    << " have planes of both bodies that\nnearly coincide, so that rounding decides more than a thousandth of the force.\n\n";
+	    << " have planes of both bodies that\nnearly coincide: rounding of a plane moves the force more than ten times as far as "
+	       "without, and by as much more is "
+	       "allowed.\n\n";
 	for (int m = 0; m < modelCount; ++m) {
 		out << modelName(models[m]) << ":";
 		for (int s = 0; s < contactStatusCount; ++s) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// One trial: shapes of a family, moved past each other; every pose queried in all ways and compared with its certificate.
+/// One trial: shapes of a family, moved past each other; every pose queried in all ways and compared with exact arithmetic.
 namespace polytope::search {
 
 /// Defects.
@@ -23,7 +23,7 @@ enum class Defect : int {
 	Energy,        ///< foundation, spring: the energy (volume), the force or the moment off by more than rounding
 	Force,
 	Moment,
-	Shape,         ///< a body that was refused, or failed in construction
+	Shape, ///< a body that was refused, or failed in construction
 };
 constexpr int defectCount = int(Defect::Shape) + 1;
 const char*   defectName(Defect defect);
@@ -43,12 +43,13 @@ struct Finding {
 /// Sums of any number of trials; the order does not matter.
 struct Tally {
 	long pairs = 0, overlaps = 0, gaps = 0, queries = 0, exact = 0, undecided = 0;
-	long compared = 0, asked = 0; ///< overlaps whose surface was compared with the exact one; those of them where one answer was unlike another
-	long ridges   = 0;            ///< of the compared: ExactSurface::ridge
+	long compared = 0,
+	     asked    = 0; ///< overlaps whose surface was compared with the exact one; those of them where one answer was unlike another
+	long                                                         ridges = 0; ///< of the compared: ExactSurface::hasRidge()
 	std::array<std::array<long, contactStatusCount>, modelCount> statuses {};
 	std::array<long, defectCount>                                defects {};
-	Real worstInfeasibility = 0;                            ///< largest error of s* over rounding × reach
-	Real worstEnergy = 0, worstForce = 0, worstMoment = 0;  ///< largest errors over what is allowed
+	Real                                                         worstInfeasibility = 0; ///< largest error of s* over rounding × reach
+	Real worstEnergy = 0, worstForce = 0, worstMoment = 0;                               ///< largest errors over what is allowed
 	int  mostPivots = 0, mostIterations = 0;
 
 	void add(const Tally& other);
