@@ -59,7 +59,7 @@ startLog() { # KIND LINE…
 	echo "$file"
 }
 
-revision() { git -c safe.directory="$project" -C "$project" describe --always --abbrev=40 --dirty 2>/dev/null || echo unknown; }
+revision() { git -c safe.directory="$project" -C "$project" describe --always --exclude='*' --abbrev=40 --dirty 2>/dev/null || echo unknown; }
 
 # checkedBuild FOLDER SANITIZERS TARGETS…
 checkedBuild() {

@@ -137,7 +137,7 @@ search() {
 	local logFile
 	logFile=$project/output/search/log-$(date -u +%Y%m%d-%H%M%S).txt
 	mkdir -p "$project/output/search"
-	POLYTOPE_REVISION=$(git -c safe.directory="$project" -C "$project" describe --always --abbrev=40 --dirty 2>/dev/null || true) \
+	POLYTOPE_REVISION=$(git -c safe.directory="$project" -C "$project" describe --always --exclude='*' --abbrev=40 --dirty 2>/dev/null || true) \
 		"$build/tools/measure/search/polytope_search" --log "$logFile" "$@"
 }
 

@@ -200,11 +200,10 @@ std::string report(const Options& options, const std::vector<Tally>& tallies, co
 	       "(8 are allowed). pivots, iterations: most of one query.\n"
 	       "compared: pairs whose energy, force and moment as foundation and as spring, cold, warm and exchanged, were compared with\n"
 	       "113-digit arithmetic; volume, force, moment: largest errors, over what is allowed. They are one of "
-	    << overlapsPerExact << " that overlap, drawn,\nand all whose answers were not alike within rounding, " << all.asked
+	    << overlapsPerExact << " that overlap, drawn,\nand all whose answers were not alike within rounding, " << all.unlike
 	    << ". Of all compared, " << all.ridges
 	    << " have planes of both bodies that\nnearly coincide: rounding of a plane moves the force more than ten times as far as "
-	       "without, and by as much more is "
-	       "allowed.\n\n";
+	       "without,\nand as much more is allowed.\n\n";
 	for (int m = 0; m < modelCount; ++m) {
 		out << modelName(models[m]) << ":";
 		for (int s = 0; s < contactStatusCount; ++s) {

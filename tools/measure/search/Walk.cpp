@@ -172,7 +172,7 @@ namespace {
 			if (number % overlapsPerExact != 0 && alike) return;
 			Random random(number);
 			++tally_.compared;
-			tally_.asked += !alike;
+			tally_.unlike += !alike;
 			ExactSurface exact(pair, origin, deepest);
 			const auto   right = [&](const Answer& a) { return Errors(a, exact.of(a.model)).within(allowedUnits(a.model)); };
 			// what rounding may do is found from a few draws, and, before an answer counts as wrong, from many
@@ -308,7 +308,7 @@ void Tally::add(const Tally& other)
 	exact += other.exact;
 	undecided += other.undecided;
 	compared += other.compared;
-	asked += other.asked;
+	unlike += other.unlike;
 	ridges += other.ridges;
 	for (std::size_t m = 0; m < statuses.size(); ++m)
 		for (std::size_t i = 0; i < statuses[m].size(); ++i)

@@ -43,9 +43,9 @@ struct Finding {
 /// Sums of any number of trials; the order does not matter.
 struct Tally {
 	long pairs = 0, overlaps = 0, gaps = 0, queries = 0, exact = 0, undecided = 0;
-	long compared = 0,
-	     asked    = 0; ///< overlaps whose surface was compared with the exact one; those of them where one answer was unlike another
-	long                                                         ridges = 0; ///< of the compared: ExactSurface::hasRidge()
+	long compared = 0; ///< overlaps whose energy, force and moment were compared with the exact ones
+	long unlike   = 0; ///< of these: where one answer was unlike another
+	long ridges   = 0; ///< of these: ExactSurface::hasRidge()
 	std::array<std::array<long, contactStatusCount>, modelCount> statuses {};
 	std::array<long, defectCount>                                defects {};
 	Real                                                         worstInfeasibility = 0; ///< largest error of s* over rounding × reach
