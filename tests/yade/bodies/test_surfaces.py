@@ -18,7 +18,7 @@ from surfaceStudy.flatBodies import bodyKinds, lyingBody
 from surfaceStudy.floors import Floor, floorKinds
 from surfaceStudy.measures import cross, rest, slideDown, stop
 from surfaceStudy.surface import SurfaceScene
-from yade import O, Quaternion, Vector3, polytope
+from yade import Bo1_Polytope_Aabb, O, PolytopeCollider, Quaternion, RockJointMat, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[3] / 'tools/measure/accuracy'
 sys.path.append(str(folder))
@@ -148,6 +148,81 @@ def testSphereForComparison():
 	"""On polytopes that lie flush it touches their union: nothing brakes or lifts it."""
 	assert cross('slab', 'sphere').kept == pytest.approx(1, abs=1e-9)
 	assert cross('plates', 'sphere').kept == pytest.approx(1, abs=1e-6)
+
+
+# over free pieces
+
+
+def slideOverFreePieces(pieces, perArea=True, seconds=1.9, order=1, verletDist=None):
+	"""A cube of 0.5 m slides without friction at 1 m/s over *pieces(sunk)*, which lie on a rough floor, from x = 0. The order of the bodies is reversed where *order* is -1.
+
+	:returns: speed lost, its place
+	"""
+	O.reset()
+	for label, friction in (('smooth', 0), ('rough', 1)):
+		O.materials.append(
+			RockJointMat(
+				density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=friction, stiffnessPerArea=perArea, label=label
+			)
+		)
+	sunk = 2600 * gravity / 1e8
+	floor = polytope.cuboid((0, 0, -1.5), (6, 2, 0.5), fixed=True, material='rough')
+	cube = polytope.cuboid((0, 0.05, 0.25 - 1.5 * sunk), (0.25, 0.25, 0.25), material='smooth', velocity=(1, 0, 0))
+	O.bodies.append([floor, *pieces(sunk), cube][::order])
+	O.engines = polytope.engines(damping=0, collider=verletDist and PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=verletDist))
+	while O.time < seconds:
+		O.step()
+	return 1 - float(cube.state.vel[0]), np.array(cube.state.pos, float)
+
+
+def slabs(higher=0.0):
+	"""Two slabs of 2 m, the second one higher by so many depths of the cube."""
+
+	def made(sunk):
+		yield polytope.cuboid((0, 0, -0.5 - sunk), (1, 1, 0.5), material='rough')
+		half = 0.5 + higher * sunk / 4
+		yield polytope.cuboid((2, 0, -1 - sunk + half), (1, 1, half), material='rough')
+
+	return made
+
+
+def testSlidesOverTheJointOfTwoFreeSlabs():
+	"""Per area no speed is lost. Per contact it lies on two springs at the joint, and the slab that it leaves has sunk under it."""
+	lost, _ = slideOverFreePieces(slabs())
+	assert abs(lost) < 1e-4
+	lost, _ = slideOverFreePieces(slabs(), perArea=False)
+	assert 1e-3 < lost < 1e-2
+
+
+def testTheOrderOfBodiesAndTheVerletDistanceDoNotMatterOnFreeSlabs():
+	lost, place = slideOverFreePieces(slabs())
+	for changed in ({'order': -1}, {'verletDist': 1e-3}, {'verletDist': 0.1}):
+		other, where = slideOverFreePieces(slabs(), **changed)
+		assert abs(other - lost) < 1e-9 and np.abs(where - place).max() < 1e-9
+
+
+@pytest.mark.parametrize('higher', [-1, -0.1, 0.1, 1])
+def testAStairOfFreeSlabsSlowsDownByItsHeight(higher):
+	"""A tenth of the depth is a step, too: v² changes by 2 g h, and the cube comes to lie higher by h."""
+	level, flat = slideOverFreePieces(slabs())
+	lost, place = slideOverFreePieces(slabs(higher))
+	height = higher * 0.5 * 2600 * gravity / 1e8
+	assert lost - level == pytest.approx(1 - math.sqrt(1 - 2 * gravity * height), rel=0.03)
+	assert place[2] - flat[2] == pytest.approx(height, rel=2e-3)
+
+
+def testSlidesOverFreeBlocksOfOneRock():
+	"""Eight blocks between two sets of joints, four of which it crosses."""
+
+	def rock(sunk):
+		sides = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+		sets = [polytope.JointSet(math.pi / 2, direction, spacing) for direction, spacing in ((math.pi / 2, 1), (0, 1.1))]
+		mass = polytope.jointedRock(sides, [3.2, 0.8, 1, 1, -sunk, 1 + sunk], sets)
+		return [polytope.fromHalfSpaces(*block, material='rough') for block in mass.blocks]
+
+	lost, _ = slideOverFreePieces(rock, seconds=2.4)
+	assert len(O.bodies) == 10
+	assert abs(lost) < 1e-3
 
 
 # with friction

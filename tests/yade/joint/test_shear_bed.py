@@ -12,6 +12,7 @@ from yade import (
 	NewtonIntegrator,
 	O,
 	PyRunner,
+	Quaternion,
 	Vector3,
 	polytope,
 )
@@ -264,6 +265,57 @@ def testLoadCyclesDoNotLetABlockCreepDownASlope(feet):
 		place.append(state.pos[0])
 	assert abs(place[-1] - place[3]) / 8 < 1e-6
 	assert place[0] - place[-1] < 1.5e-4  # as many independent springs: 0.06 to 0.12 mm, once
+
+
+@pytest.mark.parametrize('dimension', [2, 3])
+def testABlockOnItsFaceShakenBelowYieldStays(dimension):
+	"""On a joint that closes by 0.15 mm. The weight across a slope of 20° goes up and down by 30 %, twenty times."""
+	slope = radians(20)
+	joint(frictionAngle=radians(35))
+	if dimension == 2:
+		O.bodies.append(polytope.polygon([(-3, -1), (3, -1), (3, 0), (-3, 0)], fixed=True))
+		block = polytope.polygon([(-0.5, 0), (0.5, 0), (0.5, 0.6), (-0.5, 0.6)])
+	else:
+		O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
+		block = polytope.cuboid((0, 0, 0.3), (0.5, 0.4, 0.3))
+	O.bodies.append(block)
+
+	def pull(part):
+		across = -gravity * cos(slope) * part
+		return (gravity * sin(slope), across, 0) if dimension == 2 else (gravity * sin(slope), 0, across)
+
+	newton = NewtonIntegrator(gravity=pull(1), damping=0.2)
+	O.engines = polytope.engines(integrator=newton)
+	while O.time < 1:
+		O.step()
+	start, begun, places = block.state.pos[0], O.time, []
+	for cycle in range(1, 21):
+		while O.time < begun + cycle / 10:
+			newton.gravity = pull(1 + 0.3 * sin(20 * pi * (O.time - begun)))
+			O.step()
+		places.append(block.state.pos[0] - start)
+	assert max(map(abs, places)) < 2e-5
+	assert abs(places[19] - places[9]) / 10 < 1e-7
+
+
+def testDroppedBlocksComeToRestAndNoneKeepsTurning():
+	"""Thirty, at any angle and turning, with default settings. A point of friction has no moment about the normal: 25 of them turned on for ever."""
+	random = np.random.default_rng(1)
+	joint(frictionAngle=radians(35))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (100, 3, 0.5), fixed=True))
+	for k in range(30):
+		turn = random.normal(size=4)
+		turn /= np.linalg.norm(turn)
+		spin = tuple(random.normal(size=3) * 2)
+		O.bodies.append(
+			polytope.cuboid((-45 + 3 * k, 0, 1.2), (0.5, 0.4, 0.3), orientation=Quaternion(tuple(turn[:3]), turn[3]), angularVelocity=spin)
+		)
+	O.engines = polytope.engines()
+	while O.time < 8:
+		O.step()
+	assert len([one for one in O.bodies if one.state.pos[2] > 0.2]) == 30
+	assert max(one.state.angVel.norm() for one in O.bodies) < 1e-6
+	assert max(one.state.vel.norm() for one in O.bodies) < 1e-6
 
 
 def testASlidingAndTurningBlockKeepsItsBudget():
