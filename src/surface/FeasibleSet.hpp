@@ -470,7 +470,8 @@ private:
 	/// The row of the other body's plane that lies by this one; −1: none.
 	POLYTOPE_INLINE int twinOf(int row) const
 	{
-		const R a[4] = { planes_.normal[0][row], planes_.normal[1][row], planes_.normal[2][row], planes_.offset[row] };
+		R a[4];
+		planes_.plane(row, a, a[3]);
 		return twinAmong(row < planes_.first, a, R(tolerance::splitPlanes));
 	}
 

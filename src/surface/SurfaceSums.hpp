@@ -31,7 +31,7 @@ template <class R, int D> struct SurfaceSums {
 	R deeper[D]         = {}; ///< ∫ ½ p² n dS = −∂W/∂(centre 2) [m⁴]
 	R deeperTurn[turns] = {}; ///< ∫ x × ½ p² n dS [m⁵]
 	// sums over the pieces, each weighted by the square of its ∫ p dS: for a face on a face, even if they tilt, the piece between the two faces counts
-	// almost alone. Over the whole surface the mean of n is none of that: what the edges add makes it normal to the larger face
+	// almost alone. The mean of n over the whole surface does not have this property: what the edges add makes it normal to the larger face
 	R    weight        = 0;  ///< [m⁶]
 	R    mainNormal[D] = {}; ///< times n
 	R    mainCentre[D] = {}; ///< times the piece's centre of pressure

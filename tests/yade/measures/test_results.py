@@ -43,6 +43,12 @@ def testPagesAreAsTheResultsSay():
 	assert results('--check') == (0, '')
 
 
+def testNoFigureLacksItsResult():
+	"""One that looks for rows by names which the benchmark no longer has would say so in its page alone."""
+	for page in (project / 'README.md', *(project / 'docs').glob('*.md')):
+		assert 'ot measured<!-- end -->' not in page.read_text(), page.name
+
+
 def testAFigureChangedAloneIsFound(root):
 	changed(root / 'README.md', 'search.pairs -->', 'search.pairs -->1')
 	assert results('--check', '--root', root) == (1, 'README.md differs from docs/results\n')

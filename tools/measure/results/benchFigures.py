@@ -181,9 +181,9 @@ def energyCost(folder):
 	"""What the energy of *foundation* adds to a warm query of pairs that touch: least to most of the sets in space, and in the plane."""
 	kernels = {(row['method'], row['set']): row['median'] for row in read(folder)['kernels']}
 	added = {
-		name: 100 * (kernels['ours, foundation warm', name] / without - 1)
+		name: 100 * (kernels['ours with energy warm', name] / without - 1)
 		for (method, name), without in kernels.items()
-		if method == 'ours, foundation without energy warm' and not name.endswith('apart')
+		if method == 'ours warm' and not name.endswith('apart')
 	}
 	if not added:
 		return 'not measured'
