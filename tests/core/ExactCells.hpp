@@ -35,8 +35,9 @@ public:
 	int                              pieces   = 0;
 	Fine                             farthest = 0; ///< largest distance of a vertex of the overlap from the origin
 
-	/// Planes that count as one: their normals differ by no more than `normal` and their offsets by no more than `offset`. The one that is kept is that of
-	/// the body that goes first.
+	/// Planes of both bodies that count as one: their normals differ by no more than `normal` and their offsets by no more than `offset`. The one that is kept
+	/// is that of the body that goes first. Of one body only planes that are the same do: without one of two that are nearly the same others would meet in
+	/// places that differ by less than 113 digits tell.
 	struct Twins {
 		double normal = 0, offset = 0;
 		bool   secondGoesFirst = false;
@@ -113,12 +114,13 @@ private:
 		for (int turn = 0; turn < 2; ++turn) {
 			const int body = twins.secondGoesFirst ? 1 - turn : turn;
 			for (const Plane& plane : all[body]) {
-				bool there[2] = { false, false };
-				for (int side = 0; side < 2; ++side)
-					for (const Plane& other : kept[side])
-						there[side] = there[side] || coincide(plane, other, twins);
-				sharesPlanes = sharesPlanes || there[1 - body];
-				if (!there[0] && !there[1]) kept[body].push_back(plane);
+				bool there = false, shared = false;
+				for (const Plane& other : kept[body])
+					there = there || coincide(plane, other, Twins());
+				for (const Plane& other : kept[1 - body])
+					shared = shared || coincide(plane, other, twins);
+				sharesPlanes = sharesPlanes || shared;
+				if (!there && !shared) kept[body].push_back(plane);
 			}
 		}
 		first  = int(kept[0].size());
