@@ -74,6 +74,9 @@ template <class R, int D> POLYTOPE_INLINE bool placePiece(const PairPlanes<R, D>
 /// Writes to the buffers' rows how the slack of each plane less the pressure changes over the piece. It is taken as the slack's difference to
 /// that of plane i or j, whose normal is nearer: the differences of nearly parallel planes are exact, and where such planes meet is as
 /// certain as where others do.
+///
+/// A plane may have the pressure all over the piece. If its normal is not between those of i and j it is nearer than one of them on that one's side, where
+/// there is no cell of it then: such a plane leaves nothing of the piece.
 template <class R, int D, int W>
 POLYTOPE_INLINE void planesOnPiece(const PairPlanes<R, D>& planes, const SurfacePiece<R, D>& piece, const SurfaceBuffers<R, D>& buffers)
 {
@@ -92,15 +95,22 @@ POLYTOPE_INLINE void planesOnPiece(const PairPlanes<R, D>& planes, const Surface
 		const auto first = toFirst > half - half;
 		const V    d     = load<R, W>(planes.offset + k);
 		V          rest  = first ? V(d - d0) : V(d - d1);
-		V          rate[D - 1];
+		V          rate[D - 1], beyond = half - half;
 		for (int m = 0; m < D - 1; ++m)
 			rate[m] = half - half;
 		for (int c = 0; c < D; ++c) {
 			const V step = first ? V(a[c] - broadcast<R, W>(own[0][c])) : V(a[c] - broadcast<R, W>(own[1][c]));
 			rest -= step * broadcast<R, W>(piece.foot[c]);
+			beyond += step * broadcast<R, W>(own[0][c] - own[1][c]);
 			for (int m = 0; m < D - 1; ++m)
 				rate[m] -= step * broadcast<R, W>(piece.axis[m][c]);
 		}
+		V most = absolute(rest);
+		for (int m = 0; m < D - 1; ++m)
+			most = maxOf(most, absolute(rate[m]));
+		const V outside = first ? beyond : V(-beyond);
+		const V aside   = outside > half - half ? V(half - half - half) : V(half - half);
+		rest            = most > half - half ? rest : aside;
 		store<R, W>(buffers.rest + k, rest);
 		for (int m = 0; m < D - 1; ++m)
 			store<R, W>(buffers.rate[m] + k, rate[m]);

@@ -394,6 +394,39 @@ TEST(ContactSurface, IsTheSameWithBodiesExchangedTurnedAndScaled)
 	}
 }
 
+/// Three planes of one body have the same slack along a line: the one between the two others is nearest nowhere, and which of them are looked at first is
+/// of no account.
+TEST(ContactSurface, PlanesOfAPencilBoundACellOnce)
+{
+	const Real turns[][3] = { { 0, -5e-10, 1e-10 }, { -5e-10, 0, 1e-10 }, { 1e-10, -5e-10, 0 }, { -5e-10, 1e-10, 0 } };
+	Pair       pair;
+	pair.centre2     = Vector3(Real(-1.9), Real(0.1), 0);
+	pair.shape[1]    = ConvexShape::shared(rectangle(1, Real(0.5)), 0);
+	pair.rotation[1] = Eigen::AngleAxis<Real>(Real(0.3), Vector3::UnitZ()).toRotationMatrix();
+	pair.shape[0]    = ConvexShape::shared(rectangle(1, 1), 0);
+	const SurfaceOfPair<2> flat(pair);
+	for (const auto& turn : turns) {
+		HalfSpaces body = rectangle(1, 1);
+		body.normals[1] = Vector3(-1, turn[0], 0);
+		for (int k = 1; k < 3; ++k) {
+			body.normals.push_back(Vector3(-1, turn[k], 0));
+			body.offsets.push_back(1);
+		}
+		PlaneRows<Real, 2>            rows(body, moved(pair.shape[1]->planes(), pair.rotation[1], pair.centre2));
+		std::vector<Real>             numbers(std::size_t(SurfaceBuffers<Real, 2>::numbersNeeded(rows.planes.total)), Real(NAN));
+		std::vector<int>              indices(std::size_t(SurfaceBuffers<Real, 2>::indicesNeeded(rows.planes.total)), -77);
+		const SurfaceBuffers<Real, 2> buffers(rows.planes.total, numbers.data(), indices.data());
+		SurfaceSums<Real, 2>          sums;
+		int                           basis[] = { rows.row(0, 1), rows.row(0, 4), rows.row(1, 0) };
+		EXPECT_EQ(
+		        (contactSurface<Real, 2, 1>(rows.planes, basis, 3, pair.size(), flat.deepest, SurfaceParts::Cells, buffers, sums)),
+		        SurfaceStatus::Found);
+		EXPECT_NEAR(sums.volume / flat.sums.volume, 1, 1e-8);
+		EXPECT_NEAR(sums.overlap / flat.sums.overlap, 1, 1e-8);
+		EXPECT_NEAR(sums.level / flat.sums.level, 1, 1e-8);
+	}
+}
+
 TEST(ContactSurface, PiecesOfAFloorAddUp)
 {
 	const Real h = Real(1e-3);
