@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Blocks that friction or clamping holds: lintel, corbel, keys of several faces, an arch and a wall with a load across; default settings, joints per area, in space as in the plane."""
+"""Blocks that friction or clamping holds: lintel, corbel, keys of several faces, an arch and a wall with a load across, a ladder; default settings, joints per area, in space as in the plane."""
 
 import pathlib
 import sys
@@ -233,3 +233,30 @@ def testABrickWallSlidesAtItsFriction(thickness, way):
 	for part in (0.99, 1.02):
 		load = gravity * (0.3 * part * Vector3(way) - Vector3(0, 0, 1))
 		assert held(wall(thickness, 0.3), load, ramp=0.5, hold=0.3, before=0, fallen=1e-3) == (part < 1)
+
+
+def ladder(dimension, angle, friction, turned, K, length=2.0, side=0.2):
+	"""A bar of square section that leans on a floor and a wall, each with an edge; *turned* about its axis, with a vertex."""
+	joint(friction, K, K)
+	halfHeight = side / 2 * (sqrt(2) if turned else 1)
+	along, across = length / 2 * Vector3(cos(angle), 0, sin(angle)), halfHeight * Vector3(sin(angle), 0, -cos(angle))
+	bar = block(dimension, (-length / 2, length / 2), (-side / 2, side / 2), side)
+	state = O.bodies[bar].state
+	if dimension == 2:
+		state.ori = Quaternion((0, 0, 1), angle) * state.ori
+	else:
+		state.ori = Quaternion((0, 1, 0), -angle) * Quaternion((1, 0, 0), pi / 4 if turned else 0) * state.ori
+	foot, head = across - along, across + along
+	block(dimension, (foot[0] - 1, foot[0] + 2), (foot[2] - 0.5, foot[2]), 1, fixed=True)
+	block(dimension, (head[0], head[0] + 0.5), (head[2] - 1, head[2] + 1), 1, fixed=True)
+	return held([bar], -gravity * up(dimension), ramp=1, hold=1, fallen=0.02)
+
+
+@pytest.mark.parametrize('dimension, turned, K, margin', [(2, False, 1e10, 0.3), (3, False, 1e10, 0.3), (3, True, 1e11, 0.6)])
+def testALadderStandsWhereFrictionAtBothEndsHoldsIt(dimension, turned, K, margin, friction=0.4):
+	"""Rigid: tan θ = (1 - μ²)/(2 μ + (1 + μ²) h/L), with the height h and the length L of its section. Both ends slip by some depths before they hold what
+	they can: with vertices, which are softer than edges, it stands from 0.3 to 0.6 degrees above (0.1 to 0.3 with ten times the stiffness)."""
+	height = 0.2 * (sqrt(2) if turned else 1)
+	least = atan((1 - friction**2) / (2 * friction + (1 + friction**2) * height / 2))
+	assert ladder(dimension, least + radians(margin), friction, turned, K)
+	assert not ladder(dimension, least - radians(margin), friction, turned, K)
