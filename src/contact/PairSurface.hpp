@@ -24,6 +24,9 @@ template <class R, int D> struct PairSurface {
 
 	POLYTOPE_INLINE PairSurface(R size_, bool energy_, KeptVertices* kept_) : kept(kept_), energy(energy_), size(size_) { }
 
+	/// Whether a part of the pressure is on this one of several pieces.
+	POLYTOPE_INLINE bool isParted() const { return on && on->pressure > 0; }
+
 	/// Part of the solid's contact that is this contact's: all pieces add up to one.
 	POLYTOPE_INLINE R share() const { return !on ? R(1) : sums.pressure > 0 ? on->pressure / sums.pressure : R(0); }
 };

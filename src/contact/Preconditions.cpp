@@ -34,10 +34,13 @@ namespace {
 				return "settings.internal: a body has room for " + std::to_string(BoundingPlanes::most)
 				        + " internal planes";
 			for (int k = 0; k < planes.count[body]; ++k) {
-				const int plane = planes.plane[body][k];
+				const int         plane = planes.plane[body][k];
+				const std::string named = std::to_string(plane), shape = "shape" + std::to_string(body + 1);
 				if (plane < 0 || plane >= (body ? shape2 : shape1).planeCount())
-					return "settings.internal: shape" + std::to_string(body + 1) + " has no plane "
-					        + std::to_string(plane);
+					return "settings.internal: " + shape + " has no plane " + named;
+				if (!(planes.beyond[body][k] >= 0))
+					return "settings.internal: how far the solid goes on beyond plane " + named + " of " + shape
+					        + " must be at least 0 [m], or infinite";
 			}
 		}
 		return "";

@@ -98,26 +98,16 @@ template <class R> POLYTOPE_INLINE R skinAcrossGap(R apart, R size)
 	return maxOf<R>(R(tolerance::gapSkin) * size, minOf<R>(apart, R(tolerance::widestSkin) * size));
 }
 
-/// Finds the contact by its surface after the linear program, whose point is x. `across`: the pair does not touch, and its bodies were grown by `grown` until
-/// it does.
-template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQuery<R, D>& q, bool optimal, bool across, R grown)
+/// The surface of the pair; where internal faces are left out, that of the solid, with its part on the piece. `across`: the pair does not touch.
+template <class R, int D, int W>
+POLYTOPE_INLINE void surfaceOfPair(const PairQuery<R, D>& q, bool across, SurfaceOnPiece<R, D>& piece, PairSurface<R, D>& surface)
 {
-	const ContactSettings&    settings = q.settings;
-	const ContactFrame<R, D>& f        = q.frame;
-	PairPlanes<R, D>&         planes   = q.planes;
-	ContactResult&            out      = q.out;
-	const R* const            dual     = q.dual;
-
-	const bool energy = settings.energy || settings.contactModel == ContactModel::Spring || settings.closure;
-	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(q);
-	KeptVertices* const  kept = settings.warmStart && !across ? &q.memory.surface : nullptr;
-	PairSurface<R, D>    surface(f.size + grown, energy, kept);
-	SurfaceOnPiece<R, D> piece;
-	ExtendedPieces<R, D> extended(planes);
-	LpBasis<R, D>        solid;
-	if (settings.internal && !across && beginOnPieces<R, D>(*settings.internal, planes, extended, piece.clips)) {
+	const ContactSettings& settings = q.settings;
+	ExtendedPieces<R, D>   extended(q.planes);
+	LpBasis<R, D>          solid;
+	if (settings.internal && !across && beginOnPieces<R, D>(*settings.internal, q.planes, extended, piece.clips)) {
 		surface.on   = &piece;
-		surface.size = maxOf<R>(f.size, sizeOfOverlap<R>(q.in, *settings.internal));
+		surface.size = maxOf<R>(q.frame.size, sizeOfOverlap<R>(q.in, *settings.internal));
 	}
 	const auto optimum = [&]() POLYTOPE_INLINE_LAMBDA -> const LpBasis<R, D>* {
 		if (!surface.on) return &q.basis;
@@ -125,55 +115,75 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 	};
 	// one call, so that the code of the surface is there once: a second time only where the solid of several pieces has none
 	for (bool found = false; !found;) {
-		findSurface<R, D, W>(planes, optimum, q.workspace, surface);
-		found = !surface.on || slidesOnPieces<R, D>(q.in, f, q.limits, *settings.internal, surface);
+		findSurface<R, D, W>(q.planes, optimum, q.workspace, surface);
+		found = !surface.on || slidesOnPieces<R, D>(q.in, q.frame, q.limits, *settings.internal, surface);
 		extended.restore();
-		if (!found) surface = PairSurface<R, D>(f.size, energy, kept);
+		if (!found) surface = PairSurface<R, D>(q.frame.size, surface.energy, surface.kept);
 	}
-	out.surfaceKept = surface.sums.kept;
+}
 
-	// all pieces of a solid have the force's direction: no piece is pressed aside by an edge on its seam
-	const SurfaceSums<R, D>& sums    = surface.sums;
-	const R                  deepest = surface.deepest;
-	const bool               found   = surface.status == SurfaceStatus::Found;
-	const SurfaceLoad<R, D>  load(settings, sums);
-	const R                  length = norm<R, D>(load.force);
+/// Where the force of a contact acts, and along which direction; in the frame.
+template <class R, int D> struct SurfaceForce {
+	R    n[D];
+	R    centre[D]; ///< of the pressure, of one of several pieces that on this piece
+	R    point[D];
+	bool directed; ///< or n is any direction
+};
+
+/// All pieces of a solid have the force's direction: no piece is pressed aside by an edge on its seam. `across`: that of what separates the bodies. `length`:
+/// of the force.
+template <class R, int D>
+POLYTOPE_INLINE void placeForce(const PairQuery<R, D>& q, const PairSurface<R, D>& surface, const SurfaceLoad<R, D>& load, R length,
+        bool across, SurfaceForce<R, D>& force)
+{
+	const SurfaceSums<R, D>& sums = surface.sums;
+	ContactResult&           out  = q.out;
+	const R* const           dual = q.dual;
+	R *const n = force.n, *const centre = force.centre, *const point = force.point;
 	// what a pressure everywhere along one direction would be: rounding of that is no force
-	const bool perArea = settings.contactModel == ContactModel::Foundation;
-	const R    most    = perArea ? 2 * sums.pressure : 6 * deepest;
-	R          n[D], centre[D], point[D];
-	// across a gap what separates the bodies
-	bool directed = across ? norm<R, D>(dual) > R(tolerance::direction)
-	                       : directionOfForce<R, D>(load, length, R(tolerance::direction) * most, dual, n);
+	const R most   = q.settings.contactModel == ContactModel::Foundation ? 2 * sums.pressure : 6 * surface.deepest;
+	force.directed = across ? norm<R, D>(dual) > R(tolerance::direction)
+	                        : directionOfForce<R, D>(load, length, R(tolerance::direction) * most, dual, n);
 	for (int k = 0; k < D && across; ++k)
-		n[k] = directed ? dual[k] / norm<R, D>(dual) : R(k == D - 1);
+		n[k] = force.directed ? dual[k] / norm<R, D>(dual) : R(k == D - 1);
+	const bool pressed = sums.pressure > 0 && (!across || surface.status == SurfaceStatus::Found);
 	for (int k = 0; k < D; ++k)
-		point[k] = centre[k] = sums.pressure > 0 && (!across || found) ? sums.centre[k] / sums.pressure : q.x[k];
-	if (directed && !across) {
+		point[k] = centre[k] = pressed ? sums.centre[k] / sums.pressure : q.x[k];
+	if (force.directed && !across) {
 		out.turningArm = lineOfAction<R, D>(load, length, n, centre, point);
 		// where one body pierces the other, pressures cancel and leave a couple, whose line of action is anywhere
 		R aside = 0;
 		for (int k = 0; k < D; ++k)
 			aside += (point[k] - centre[k]) * (point[k] - centre[k]);
 		const R farthest = R(tolerance::lineOfAction) * surface.size;
-		directed         = aside <= farthest * farthest && abs(out.turningArm) <= farthest;
-		if (!directed) {
+		force.directed   = aside <= farthest * farthest && abs(out.turningArm) <= farthest;
+		if (!force.directed) {
 			out.turningArm = 0;
 			for (int k = 0; k < D; ++k)
 				point[k] = centre[k];
 		}
 	}
-	const bool parted = surface.on && piece.pressure > 0;
 	// each piece's part acts at the centre of the pressure on it, and all together along the solid's line of action
-	for (int k = 0; k < D && parted; ++k) {
-		const R own = piece.centre[k] / piece.pressure;
+	for (int k = 0; k < D && surface.isParted(); ++k) {
+		const R own = surface.on->centre[k] / surface.on->pressure;
 		point[k] += own - centre[k];
 		centre[k] = own;
 	}
+}
 
+/// Area along the normal n, and the depth and energy that go with it.
+template <class R, int D>
+POLYTOPE_INLINE void publishLoad(
+        const PairQuery<R, D>& q, const PairSurface<R, D>& surface, const SurfaceLoad<R, D>& load, R length, const R* n)
+{
+	const ContactSettings&   settings = q.settings;
+	const SurfaceSums<R, D>& sums     = surface.sums;
+	ContactResult&           out      = q.out;
+	const R                  deepest  = surface.deepest;
+	const bool               perArea = settings.contactModel == ContactModel::Foundation, parted = surface.isParted();
 	// the mean of 2 p over the area is no more than its largest: so thin a view is of a surface that is folded
-	R area = dot<R, D>(parted ? piece.areaVector : sums.areaVector, n);
-	area   = maxOf<R>(area, (parted ? piece.pressure : sums.pressure) / deepest);
+	R area = dot<R, D>(parted ? surface.on->areaVector : sums.areaVector, n);
+	area   = maxOf<R>(area, (parted ? surface.on->pressure : sums.pressure) / deepest);
 	if (!(area > 0)) area = D == 3 ? deepest * deepest : deepest; // no surface
 	out.share       = surface.share();
 	const R onPiece = parted ? out.share : R(1);
@@ -183,48 +193,75 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 		out.depth  = settings.closure->closure(out.depth);
 		stiffening = R(settings.closure->tangent(out.depth));
 	}
-	out.energy = !energy ? R(-1) : (perArea ? load.energy * onPiece / area : load.energy) / (stiffening > 0 ? stiffening : R(1));
+	out.energy
+	        = !surface.energy ? R(-1) : (perArea ? load.energy * onPiece / area : load.energy) / (stiffening > 0 ? stiffening : R(1));
 	if (surface.on && !parted) area = 0;
 	out.area = D == 2 ? area * minOf<R>(q.in.shape[0]->thickness(), q.in.shape[1]->thickness()) : area;
+}
 
+/// The outline over which friction acts: in the plane in which the contact surface of two faces lies.
+template <class R>
+POLYTOPE_INLINE void outlineOfSurface(const PairQuery<R, 3>& q, const PairSurface<R, 3>& surface, const SurfaceForce<R, 3>& force)
+{
+	const SurfaceSums<R, 3>& sums   = surface.sums;
+	const Real               all    = q.out.area;
+	const PairPlanes<R, 3>&  bounds = surface.on ? q.planes : surface.nearest; // of the others none bounds the overlap
+	const R                  far    = norm<R, 3>(sums.mainNormal);
+	R                        plane[3], place[3];
+	for (int k = 0; k < 3; ++k) {
+		plane[k] = far > 0 ? sums.mainNormal[k] / far : force.n[k];
+		place[k] = sums.weight > 0 ? sums.mainCentre[k] / sums.weight : force.point[k];
+	}
+	if (surface.isParted()) { // within the piece, which may be far from the middle of the solid
+		R above = 0;
+		for (int k = 0; k < 3; ++k)
+			above += (force.centre[k] - place[k]) * plane[k];
+		for (int k = 0; k < 3; ++k)
+			place[k] = force.centre[k] - above * plane[k];
+	}
+	contactSection<R, 3>(q, bounds, place, plane, force.point, surface.spare);
+	q.out.area            = all;
+	q.out.sectionCentroid = q.out.point;
+}
+
+/// Finds the contact by its surface after the linear program, whose point is x. `across`: the pair does not touch, and its bodies were grown by `grown` until
+/// it does.
+template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQuery<R, D>& q, bool optimal, bool across, R grown)
+{
+	const ContactSettings& settings = q.settings;
+	ContactResult&         out      = q.out;
+
+	const bool energy = settings.energy || settings.contactModel == ContactModel::Spring || settings.closure;
+	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(q);
+	PairSurface<R, D>    surface(q.frame.size + grown, energy, settings.warmStart && !across ? &q.memory.surface : nullptr);
+	SurfaceOnPiece<R, D> piece;
+	surfaceOfPair<R, D, W>(q, across, piece, surface);
+	out.surfaceKept = surface.sums.kept;
+
+	const SurfaceLoad<R, D> load(settings, surface.sums);
+	const R                 length = norm<R, D>(load.force);
+	SurfaceForce<R, D>      force;
+	placeForce<R, D>(q, surface, load, length, across, force);
+	publishLoad<R, D>(q, surface, load, length, force.n);
 	if (across) {
 		out.turningArm = out.energy = 0;
 		R least;
-		mostViolated<R, D, W>(planes, point, least); // leaves the slacks
-		out.depth = depthAcrossGap<R, D>(planes, n, grown, q.basis.infeasibility + grown, dual);
+		mostViolated<R, D, W>(q.planes, force.point, least); // leaves the slacks
+		out.depth = depthAcrossGap<R, D>(q.planes, force.n, grown, q.basis.infeasibility + grown, q.dual);
 	}
 
 	// across a gap the program's own point will do as well
-	const bool whole = across || found || surface.status == SurfaceStatus::None;
+	const bool whole = across || surface.status == SurfaceStatus::Found || surface.status == SurfaceStatus::None;
 	publishContact<R, D>(q,
-	        !optimal            ? ContactStatus::LpNotConverged
-	                : !whole    ? ContactStatus::SurfaceIncomplete
-	                : !directed ? ContactStatus::NoDirection
-	                : across    ? ContactStatus::Separated
-	                            : ContactStatus::Contact,
-	        point, n);
+	        !optimal                  ? ContactStatus::LpNotConverged
+	                : !whole          ? ContactStatus::SurfaceIncomplete
+	                : !force.directed ? ContactStatus::NoDirection
+	                : across          ? ContactStatus::Separated
+	                                  : ContactStatus::Contact,
+	        force.point, force.n);
 	out.sectionCentroid = out.point;
 	if constexpr (D == 3) {
-		if (settings.outline) { // where friction acts: the plane in which the contact surface of two faces lies
-			const Real              all    = out.area;
-			const PairPlanes<R, 3>& bounds = surface.on ? planes : surface.nearest; // of the others none bounds the overlap
-			const R                 far    = norm<R, 3>(sums.mainNormal);
-			R                       plane[3], place[3];
-			for (int k = 0; k < 3; ++k) {
-				plane[k] = far > 0 ? sums.mainNormal[k] / far : n[k];
-				place[k] = sums.weight > 0 ? sums.mainCentre[k] / sums.weight : point[k];
-			}
-			if (parted) { // within the piece, which may be far from the middle of the solid
-				R above = 0;
-				for (int k = 0; k < 3; ++k)
-					above += (centre[k] - place[k]) * plane[k];
-				for (int k = 0; k < 3; ++k)
-					place[k] = centre[k] - above * plane[k];
-			}
-			contactSection<R, 3>(q, bounds, place, plane, point, surface.spare);
-			out.area            = all;
-			out.sectionCentroid = out.point;
-		}
+		if (settings.outline) outlineOfSurface<R>(q, surface, force);
 	}
 	failUnlessFinite<D>(q.memory, out);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "surface/FeasibleBuffers.hpp"
+#include "surface/FeasibleVertices.hpp"
+#include "surface/FlushPlanes.hpp"
 
 #include <utility>
 
@@ -13,9 +14,8 @@
 /// connect all its vertices.
 ///
 /// Where more planes meet (regular bodies have the same slack on several planes along a line), offsets that are changed by
-/// tolerance::splitPlanes say which four belong together. The vertices themselves have the planes' true offsets. Planes of both bodies that lie by each
-/// other, as the sides of blocks in a row do, are told apart by their true offsets. Where they coincide the energy has a ridge, and the plane belongs to
-/// either body by half. What all that does not make a simple polytope is left to SurfaceWalk.
+/// tolerance::splitPlanes say which four belong together. The vertices themselves have the planes' true offsets, by which planes of both bodies that lie by each
+/// other are told apart (FlushPlanes.hpp). What all that does not make a simple polytope is left to SurfaceWalk (ContactSurface.hpp).
 namespace polytope {
 
 template <class R, int W> class FeasibleSet {
@@ -24,7 +24,7 @@ public:
 
 	/// `size`: that of the smaller body. The planes may be all of a pair, or those that are near.
 	POLYTOPE_INLINE FeasibleSet(const PairPlanes<R, 3>& planes, R size, Buffers& buffers)
-	        : planes_(planes), size_(size), buffers_(buffers)
+	        : planes_(planes), size_(size), buffers_(buffers), vertices_(planes, size, buffers), flush_(planes, size, buffers)
 	{
 	}
 
@@ -36,7 +36,7 @@ public:
 		for (int k = 0; k < planes; ++k) {
 			const int row = kept.row(k, rowsOfBody1, planes_.total);
 			if (row < 0) return false;
-			setPlane(k, row);
+			vertices_.setPlane(k, row);
 		}
 		std::uint64_t noPressure = 0, named = 0, misplaced = 0;
 		for (int k = 0; k < planes; ++k)
@@ -66,7 +66,7 @@ public:
 			buffers_.dropped[v] |= one;
 			buffers_.dropped[w] |= other;
 		}
-		return right && everyEdgeOnce() && placeAll() && (kept.shared == 0 || shareCoinciding() == kept.shared);
+		return right && everyEdgeOnce() && vertices_.placeAll() && (kept.shared == 0 || flush_.shareCoinciding() == kept.shared);
 	}
 
 	/// What recall() needs in the next step; `rowOfAll`: gives a row's number among all planes of the pair.
@@ -99,9 +99,9 @@ public:
 			buffers_.localOf[k] = -1;
 		for (int k = 0; k < planes_.total; ++k)
 			buffers_.split[k] = planes_.offset[k] + R(tolerance::splitPlanes) * size_ * shareOf(k);
-		const bool twins = leaveOutTwins();
+		const bool twins = flush_.leaveOutTwins();
 		for (int k = 0; k < 4; ++k) {
-			const int plane = use(twins ? nearerTwin(basis[k]) : basis[k]);
+			const int plane = use(twins ? flush_.nearerTwin(basis[k]) : basis[k]);
 			if (plane < 0) return false;
 			buffers_.tight[0][k] = std::uint8_t(plane);
 		}
@@ -111,34 +111,23 @@ public:
 		for (int v = 0; v < buffers_.vertices; ++v)
 			if (!goOn(v)) return false;
 		for (int k = 0; k < buffers_.planes; ++k)
-			setPlane(k, buffers_.rowOf[k]);
-		if (twins) shareCoinciding();
-		return buffers_.vertices > 4 && everyEdgeOnce() && placeAll();
+			vertices_.setPlane(k, buffers_.rowOf[k]);
+		if (twins) flush_.shareCoinciding();
+		return buffers_.vertices > 4 && everyEdgeOnce() && vertices_.placeAll();
 	}
 
 	/// s of the program's optimum, which is one of the vertices.
-	R largestPressure() const { return largest_; }
+	R largestPressure() const { return vertices_.largestPressure(); }
 
 private:
 	static constexpr int lastPlane = Buffers::mostPlanes - 1;
 	static_assert((Buffers::mostPlanes & lastPlane) == 0);
 
-	using V    = typename Lanes<R, W>::Type;
-	using Four = typename Lanes<R, 4>::Type; ///< x, y, z and s, or a and d
+	using V        = typename Lanes<R, W>::Type;
+	using Four     = typename FeasibleVertices<R, W>::Four;
+	using Crossing = typename FeasibleVertices<R, W>::Crossing;
 
 	static std::uint64_t bit(int plane) { return std::uint64_t(1) << plane; }
-	int                  none() const { return planes_.total; }
-	bool                 isNone(int v, int slot) const { return buffers_.owner[buffers_.tight[v][slot]] == Buffers::NoBody; }
-
-	POLYTOPE_INLINE void setPlane(int k, int row)
-	{
-		const bool no     = row == none();
-		buffers_.rowOf[k] = row;
-		buffers_.owner[k] = no ? Buffers::NoBody : row >= planes_.first ? Buffers::Body2 : Buffers::Body1;
-		for (int m = 0; m < 3; ++m)
-			buffers_.plane[4 * k + m] = no ? R(0) : planes_.normal[m][row];
-		buffers_.plane[4 * k + 3] = no ? R(0) : planes_.offset[row];
-	}
 
 	POLYTOPE_INLINE bool everyEdgeOnce() const
 	{
@@ -146,129 +135,6 @@ private:
 		for (int v = 0; v < buffers_.vertices; ++v)
 			all = all && buffers_.dropped[v] == buffers_.mask[v];
 		return all;
-	}
-
-	// -------------------------------------------------------------------------------------------------------------------------------- vertices
-
-	static POLYTOPE_INLINE R dotOf3(const Four& a, const Four& b)
-	{
-		const Four product = a * b;
-		return product[0] + product[1] + product[2];
-	}
-
-	/// Where the planes of a vertex cross: three of them less the `last`, and the cross products of two of those in turn.
-	struct Crossing {
-		Four row[3], across[3], last;
-		R    volume, lengths; ///< of the three; the product of the squares of their lengths, or what that cannot exceed
-
-		/// Whether the planes are so nearly parallel that it matters which is subtracted from which.
-		bool isSharp() const { return volume * volume < R(tolerance::sharpVertex) * R(tolerance::sharpVertex) * lengths; }
-	};
-	POLYTOPE_INLINE bool cross(int v, Crossing& c, int last = 3) const
-	{
-		const std::uint8_t* const tight = buffers_.tight[v];
-		c.last                          = load<R, 4>(buffers_.plane + 4 * tight[last]);
-		for (int k = 0; k < 3; ++k)
-			c.row[k] = load<R, 4>(buffers_.plane + 4 * tight[k == last ? 3 : k]) - c.last;
-		for (int k = 0; k < 3; ++k)
-			c.across[k] = crossProduct<R>(c.row[(k + 1) % 3], c.row[(k + 2) % 3]);
-		c.volume  = dotOf3(c.row[0], c.across[0]);
-		c.lengths = 64; // differences of unit vectors
-		if (c.isSharp()) c.lengths = dotOf3(c.row[0], c.row[0]) * dotOf3(c.row[1], c.row[1]) * dotOf3(c.row[2], c.row[2]);
-		const R least = R(tolerance::vertexVolume);
-		return c.volume * c.volume > least * least * c.lengths;
-	}
-
-	/// One of the two planes of a vertex that are most nearly parallel: their difference is exact.
-	POLYTOPE_APART int nearlyParallel(int v) const
-	{
-		int found = 3;
-		R   least = R(padOffset);
-		for (int k = 0; k < 4; ++k)
-			for (int j = 0; j < k; ++j) {
-				const Four apart = load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][k])
-				        - load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][j]);
-				const R square = dotOf3(apart, apart);
-				if (!(square < least)) continue;
-				least = square;
-				found = k;
-			}
-		return found;
-	}
-
-	/// Point and pressure of a vertex.
-	POLYTOPE_INLINE void place(int v, const Crossing& c)
-	{
-		if (c.isSharp()) {
-			Crossing sharp;
-			cross(v, sharp, nearlyParallel(v));
-			placeAt(v, sharp);
-			refine(v, sharp);
-		} else placeAt(v, c);
-	}
-
-	/// The cross products of planes that are nearly parallel give a vertex that is off its planes by what they round, times one over their angle. A step with
-	/// what is left leaves what the slacks round. How long it is says how certain the vertex is along the line in which those planes meet.
-	POLYTOPE_INLINE void refine(int v, const Crossing& c)
-	{
-		R* const   point = buffers_.point + 4 * v;
-		const Four x     = load<R, 4>(point);
-		R          left[3];
-		for (int k = 0; k < 3; ++k)
-			left[k] = (c.row[k][3] - dotOf3(c.row[k], x)) / c.volume;
-		const Four step = c.across[0] * broadcast<R, 4>(left[0]) + c.across[1] * broadcast<R, 4>(left[1])
-		        + c.across[2] * broadcast<R, 4>(left[2]);
-		R moved = 0;
-		for (int m = 0; m < 3; ++m) {
-			point[m] += step[m];
-			moved += abs(step[m]);
-		}
-		moved_ = maxOf<R>(moved_, moved / closeness(v));
-		if (!isNone(v, 3)) point[3] = c.last[3] - dotOf3(c.last, load<R, 4>(point));
-	}
-
-	POLYTOPE_INLINE void placeAt(int v, const Crossing& c)
-	{
-		const Four x = (c.across[0] * broadcast<R, 4>(c.row[0][3]) + c.across[1] * broadcast<R, 4>(c.row[1][3])
-		                       + c.across[2] * broadcast<R, 4>(c.row[2][3]))
-		        * broadcast<R, 4>(1 / c.volume);
-		R point[4];
-		store<R, 4>(point, x);
-		for (int m = 0; m < 3; ++m)
-			buffers_.point[4 * v + m] = point[m];
-		buffers_.point[4 * v + 3] = isNone(v, 3) ? R(0) : c.last[3] - dotOf3(c.last, x);
-	}
-
-	/// What rounding leaves of the slack of a plane through a vertex.
-	R closeness(int v) const
-	{
-		const R* const p = buffers_.point + 4 * v;
-		return R(tolerance::feasibleVertex) * (size_ + abs(p[0]) + abs(p[1]) + abs(p[2]));
-	}
-
-	POLYTOPE_INLINE bool placeAll()
-	{
-		R extent = 0;
-		moved_ = largest_ = 0;
-		for (int v = 0; v < buffers_.vertices; ++v) {
-			Crossing c;
-			if (!cross(v, c)) return false;
-			place(v, c);
-			extent = maxOf<R>(extent, closeness(v));
-		}
-		V least = broadcast<R, W>(R(padOffset));
-		for (int v = 0; v < buffers_.vertices; ++v) {
-			const R* const p = buffers_.point + 4 * v;
-			const V x[3] = { broadcast<R, W>(p[0]), broadcast<R, W>(p[1]), broadcast<R, W>(p[2]) }, s = broadcast<R, W>(p[3]);
-			least    = minOf(least, s);
-			largest_ = maxOf<R>(largest_, p[3]);
-			for (int k = 0; k < planes_.total; k += W) {
-				V a[3];
-				least = minOf(least, V(slacksOf<R, 3, W>(planes_, k, x, a) - s));
-			}
-		}
-		// a pressure is no more certain than a rounding over the overlap's thickness: a vertex need not be
-		return horizontalMin<R, W>(least) >= -extent && moved_ * largest_ <= size_;
 	}
 
 	// --------------------------------------------------------------------------------------------------------------------------------- exploring
@@ -288,8 +154,8 @@ private:
 		if (buffers_.localOf[row] >= 0) return buffers_.localOf[row];
 		if (buffers_.planes == Buffers::mostPlanes) return -1;
 		const int k = buffers_.localOf[row] = buffers_.planes++;
-		setPlane(k, row);
-		if (row != none()) buffers_.plane[4 * k + 3] = buffers_.split[row];
+		vertices_.setPlane(k, row);
+		if (row != vertices_.none()) buffers_.plane[4 * k + 3] = buffers_.split[row];
 		return k;
 	}
 
@@ -309,8 +175,9 @@ private:
 	{
 		const Four out = broadcast<R, 4>(c.volume > 0 ? R(1) : R(-1));
 		way            = slot < 3 ? -out * c.across[slot] : out * (c.across[0] + c.across[1] + c.across[2]);
-		if (slot == 3 && isNone(v, 3)) way = -way;
-		return slot < 3 ? -dotOf3(c.last, way) : -dotOf3(load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][0]), way);
+		if (slot == 3 && vertices_.isNone(v, 3)) way = -way;
+		return slot < 3 ? -vertices_.dotOf3(c.last, way)
+		                : -vertices_.dotOf3(load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][0]), way);
 	}
 
 	/// The optimum's planes may be no vertex with the split offsets. Dual pivots lead to that which is the optimum with those.
@@ -318,8 +185,8 @@ private:
 	{
 		for (int pivot = 0; pivot <= tolerance::splitPivots; ++pivot) {
 			Crossing c;
-			if (!cross(0, c)) return false;
-			place(0, c);
+			if (!vertices_.cross(0, c)) return false;
+			vertices_.place(0, c);
 			if (slacksAt(0)) return true;
 			int violated = 0;
 			for (int k = 1; k < planes_.total; ++k)
@@ -348,8 +215,8 @@ private:
 	POLYTOPE_INLINE bool goOn(int v)
 	{
 		Crossing c;
-		if (!cross(v, c)) return false;
-		place(v, c);
+		if (!vertices_.cross(v, c)) return false;
+		vertices_.place(v, c);
 		if (!slacksAt(v)) return false;
 		for (int slot = 0; slot < 4; ++slot) {
 			if (buffers_.dropped[v] & bit(buffers_.tight[v][slot])) continue;
@@ -375,8 +242,8 @@ private:
 			store<R, W>(buffers_.slack + k, slack);
 		}
 		for (int k = 0; k < 4; ++k)
-			if (!isNone(v, k)) buffers_.slack[buffers_.rowOf[buffers_.tight[v][k]]] = R(padOffset);
-		return horizontalMin<R, W>(least) >= -closeness(v);
+			if (!vertices_.isNone(v, k)) buffers_.slack[buffers_.rowOf[buffers_.tight[v][k]]] = R(padOffset);
+		return horizontalMin<R, W>(least) >= -vertices_.closeness(v);
 	}
 
 	/// The row that is met first along an edge, on which s changes by `up`; −1: none.
@@ -401,7 +268,7 @@ private:
 		int best = 0;
 		for (int lane = 1; lane < W; ++lane)
 			if (first[lane] < first[best]) best = lane;
-		if (up < 0 && !isNone(v, 3) && buffers_.point[4 * v + 3] < -up * first[best]) return none();
+		if (up < 0 && !vertices_.isNone(v, 3) && buffers_.point[4 * v + 3] < -up * first[best]) return vertices_.none();
 		return first[best] < R(padOffset) / 2 ? int(row[best]) : -1;
 	}
 
@@ -428,79 +295,11 @@ private:
 		return true;
 	}
 
-	// ------------------------------------------------------------------------------------------------------- planes of both bodies that coincide
-
-	/// The plane of a body that lies by this one, by no more than `within` in its normal and `within` × size in its offset; −1: none.
-	POLYTOPE_INLINE int twinAmong(int body, const R* a, R within) const
-	{
-		const V own[3] = { broadcast<R, W>(a[0]), broadcast<R, W>(a[1]), broadcast<R, W>(a[2]) }, d = broadcast<R, W>(a[3]),
-		        far = broadcast<R, W>(R(1)), offset = broadcast<R, W>(within * size_);
-		for (int i = planes_.begin(body); i < planes_.end(body); i += W) {
-			V square = far - far;
-			for (int m = 0; m < 3; ++m) {
-				const V step = load<R, W>(planes_.normal[m] + i) - own[m];
-				square += step * step;
-			}
-			const V apart = absolute(V(load<R, W>(planes_.offset + i) - d));
-			square        = apart <= offset ? square : far;
-			if (horizontalMin<R, W>(square) > within * within) continue;
-			R each[W];
-			store<R, W>(each, square);
-			for (int lane = 0; lane < W; ++lane)
-				if (each[lane] <= within * within) return i + lane;
-		}
-		return -1;
-	}
-
-	/// Leaves out the farther one of two planes of both bodies that lie so near by each other that changed offsets would hide which is nearer. Whether there
-	/// are any.
-	POLYTOPE_INLINE bool leaveOutTwins()
-	{
-		bool any = false;
-		for (int k = planes_.begin(1); k < planes_.end(1); ++k) {
-			if (planes_.offset[k] >= R(padOffset) / 2) continue;
-			const int twin = twinOf(k);
-			if (twin < 0) continue;
-			buffers_.split[planes_.offset[k] < planes_.offset[twin] ? twin : k] = R(padOffset);
-			any                                                                 = true;
-		}
-		return any;
-	}
-
-	/// The row of the other body's plane that lies by this one; −1: none.
-	POLYTOPE_INLINE int twinOf(int row) const
-	{
-		R a[4];
-		planes_.plane(row, a, a[3]);
-		return twinAmong(row < planes_.first, a, R(tolerance::splitPlanes));
-	}
-
-	/// The plane that stands for one of the optimum's.
-	int nearerTwin(int row) const
-	{
-		if (row == none() || buffers_.split[row] < R(padOffset) / 2) return row;
-		const int twin = twinOf(row);
-		return twin < 0 ? row : twin;
-	}
-
-	/// Gives planes that coincide to both bodies, and returns how many of the tight ones do.
-	POLYTOPE_APART int shareCoinciding()
-	{
-		int count = 0;
-		for (int k = 0; k < buffers_.planes; ++k) {
-			if (buffers_.owner[k] == Buffers::NoBody) continue;
-			const int other = buffers_.owner[k] == Buffers::Body1;
-			if (twinAmong(other, buffers_.plane + 4 * k, R(tolerance::twinPlanes)) < 0) continue;
-			buffers_.owner[k] = Buffers::Both;
-			++count;
-		}
-		return count;
-	}
-
 	const PairPlanes<R, 3>& planes_;
-	R                       size_, largest_ = 0;
-	R                       moved_ = 0; ///< farthest step of refine() over what rounding leaves of a vertex' slacks
+	R                       size_;
 	Buffers&                buffers_;
+	FeasibleVertices<R, W>  vertices_;
+	FlushPlanes<R, W>       flush_;
 };
 
 } // namespace polytope

@@ -82,6 +82,18 @@ TEST(Preconditions, NameTheArgument)
 	bad          = good;
 	bad.internal = &internal;
 	EXPECT_TRUE(starts(fault(*solid, unturned, centre, bad), "settings.internal: shape2 has no plane 6"));
+	for (const Real beyond : { Real(-1), std::numeric_limits<Real>::quiet_NaN() }) {
+		InternalPlanes back;
+		back.add(0, 5, beyond);
+		bad.internal = &back;
+		EXPECT_TRUE(starts(
+		        fault(*solid, unturned, centre, bad), "settings.internal: how far the solid goes on beyond plane 5 of shape1"));
+	}
+	InternalPlanes farther; // as far as infinity
+	farther.add(0, 5);
+	farther.add(1, 0, 0);
+	bad.internal = &farther;
+	EXPECT_EQ(fault(*solid, unturned, centre, bad), "");
 }
 
 /// What is not the pair's own is not used: the answer is that without memory.

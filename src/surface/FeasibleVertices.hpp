@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "surface/FeasibleBuffers.hpp"
+
+/// Where the vertices of the feasible set of a pair (FeasibleSet.hpp) are, by the planes that are tight in them.
+namespace polytope {
+
+template <class R, int W> class FeasibleVertices {
+public:
+	using Buffers = FeasibleBuffers<R>;
+	using Four    = typename Lanes<R, 4>::Type; ///< x, y, z and s, or a and d
+
+	POLYTOPE_INLINE FeasibleVertices(const PairPlanes<R, 3>& planes, R size, Buffers& buffers)
+	        : planes_(planes), size_(size), buffers_(buffers)
+	{
+	}
+
+	/// The row of the plane of no pressure.
+	int none() const { return planes_.total; }
+	/// Whether that is the tight plane in this slot of a vertex.
+	bool isNone(int v, int slot) const { return buffers_.owner[buffers_.tight[v][slot]] == Buffers::NoBody; }
+
+	/// Tight plane k is that of this row of the pair, or that of no pressure.
+	POLYTOPE_INLINE void setPlane(int k, int row)
+	{
+		const bool no     = row == none();
+		buffers_.rowOf[k] = row;
+		buffers_.owner[k] = no ? Buffers::NoBody : row >= planes_.first ? Buffers::Body2 : Buffers::Body1;
+		for (int m = 0; m < 3; ++m)
+			buffers_.plane[4 * k + m] = no ? R(0) : planes_.normal[m][row];
+		buffers_.plane[4 * k + 3] = no ? R(0) : planes_.offset[row];
+	}
+
+	static POLYTOPE_INLINE R dotOf3(const Four& a, const Four& b)
+	{
+		const Four product = a * b;
+		return product[0] + product[1] + product[2];
+	}
+
+	/// Where the planes of a vertex cross: three of them less the `last`, and the cross products of two of those in turn.
+	struct Crossing {
+		Four row[3], across[3], last;
+		R    volume, lengths; ///< of the three; the product of the squares of their lengths, or what that cannot exceed
+
+		/// Whether the planes are so nearly parallel that it matters which is subtracted from which.
+		bool isSharp() const { return volume * volume < R(tolerance::sharpVertex) * R(tolerance::sharpVertex) * lengths; }
+	};
+	/// False if they do not meet in a point. `last`: which of the four is subtracted from the others.
+	POLYTOPE_INLINE bool cross(int v, Crossing& c, int last = 3) const
+	{
+		const std::uint8_t* const tight = buffers_.tight[v];
+		c.last                          = load<R, 4>(buffers_.plane + 4 * tight[last]);
+		for (int k = 0; k < 3; ++k)
+			c.row[k] = load<R, 4>(buffers_.plane + 4 * tight[k == last ? 3 : k]) - c.last;
+		for (int k = 0; k < 3; ++k)
+			c.across[k] = crossProduct<R>(c.row[(k + 1) % 3], c.row[(k + 2) % 3]);
+		c.volume  = dotOf3(c.row[0], c.across[0]);
+		c.lengths = 64; // differences of unit vectors
+		if (c.isSharp()) c.lengths = dotOf3(c.row[0], c.row[0]) * dotOf3(c.row[1], c.row[1]) * dotOf3(c.row[2], c.row[2]);
+		const R least = R(tolerance::vertexVolume);
+		return c.volume * c.volume > least * least * c.lengths;
+	}
+
+	/// Point and pressure of a vertex.
+	POLYTOPE_INLINE void place(int v, const Crossing& c)
+	{
+		if (c.isSharp()) {
+			Crossing sharp;
+			cross(v, sharp, nearlyParallel(v));
+			placeAt(v, sharp);
+			refine(v, sharp);
+		} else placeAt(v, c);
+	}
+
+	/// What rounding leaves of the slack of a plane through a vertex.
+	R closeness(int v) const
+	{
+		const R* const p = buffers_.point + 4 * v;
+		return R(tolerance::feasibleVertex) * (size_ + abs(p[0]) + abs(p[1]) + abs(p[2]));
+	}
+
+	/// Point and pressure of all vertices; false if they do not meet in a point, or violate a plane.
+	POLYTOPE_INLINE bool placeAll()
+	{
+		R extent = 0;
+		moved_ = largest_ = 0;
+		for (int v = 0; v < buffers_.vertices; ++v) {
+			Crossing c;
+			if (!cross(v, c)) return false;
+			place(v, c);
+			extent = maxOf<R>(extent, closeness(v));
+		}
+		V least = broadcast<R, W>(R(padOffset));
+		for (int v = 0; v < buffers_.vertices; ++v) {
+			const R* const p = buffers_.point + 4 * v;
+			const V x[3] = { broadcast<R, W>(p[0]), broadcast<R, W>(p[1]), broadcast<R, W>(p[2]) }, s = broadcast<R, W>(p[3]);
+			least    = minOf(least, s);
+			largest_ = maxOf<R>(largest_, p[3]);
+			for (int k = 0; k < planes_.total; k += W) {
+				V a[3];
+				least = minOf(least, V(slacksOf<R, 3, W>(planes_, k, x, a) - s));
+			}
+		}
+		// a pressure is no more certain than a rounding over the overlap's thickness: a vertex need not be
+		return horizontalMin<R, W>(least) >= -extent && moved_ * largest_ <= size_;
+	}
+
+	/// The largest pressure of those that placeAll() has placed.
+	R largestPressure() const { return largest_; }
+
+private:
+	using V = typename Lanes<R, W>::Type;
+
+	/// One of the two planes of a vertex that are most nearly parallel: their difference is exact.
+	POLYTOPE_APART int nearlyParallel(int v) const
+	{
+		int found = 3;
+		R   least = R(padOffset);
+		for (int k = 0; k < 4; ++k)
+			for (int j = 0; j < k; ++j) {
+				const Four apart = load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][k])
+				        - load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][j]);
+				const R square = dotOf3(apart, apart);
+				if (!(square < least)) continue;
+				least = square;
+				found = k;
+			}
+		return found;
+	}
+
+	/// The cross products of planes that are nearly parallel give a vertex that is off its planes by what they round, times one over their angle. A step with
+	/// what is left leaves what the slacks round. How long it is says how certain the vertex is along the line in which those planes meet.
+	POLYTOPE_INLINE void refine(int v, const Crossing& c)
+	{
+		R* const   point = buffers_.point + 4 * v;
+		const Four x     = load<R, 4>(point);
+		R          left[3];
+		for (int k = 0; k < 3; ++k)
+			left[k] = (c.row[k][3] - dotOf3(c.row[k], x)) / c.volume;
+		const Four step = c.across[0] * broadcast<R, 4>(left[0]) + c.across[1] * broadcast<R, 4>(left[1])
+		        + c.across[2] * broadcast<R, 4>(left[2]);
+		R moved = 0;
+		for (int m = 0; m < 3; ++m) {
+			point[m] += step[m];
+			moved += abs(step[m]);
+		}
+		moved_ = maxOf<R>(moved_, moved / closeness(v));
+		if (!isNone(v, 3)) point[3] = c.last[3] - dotOf3(c.last, load<R, 4>(point));
+	}
+
+	POLYTOPE_INLINE void placeAt(int v, const Crossing& c)
+	{
+		const Four x = (c.across[0] * broadcast<R, 4>(c.row[0][3]) + c.across[1] * broadcast<R, 4>(c.row[1][3])
+		                       + c.across[2] * broadcast<R, 4>(c.row[2][3]))
+		        * broadcast<R, 4>(1 / c.volume);
+		R point[4];
+		store<R, 4>(point, x);
+		for (int m = 0; m < 3; ++m)
+			buffers_.point[4 * v + m] = point[m];
+		buffers_.point[4 * v + 3] = isNone(v, 3) ? R(0) : c.last[3] - dotOf3(c.last, x);
+	}
+
+	const PairPlanes<R, 3>& planes_;
+	R                       size_, largest_ = 0;
+	R                       moved_ = 0; ///< farthest step of refine() over what rounding leaves of a vertex' slacks
+	Buffers&                buffers_;
+};
+
+} // namespace polytope
