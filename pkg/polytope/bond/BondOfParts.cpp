@@ -74,10 +74,8 @@ shared_ptr<PolytopeBond> bondOfParts(const PolytopeBond& whole, const Body& whol
 	const Quaternionr turn(AngleAxisr(math::atan2(along[2], along[1]), Vector3r::UnitX()));
 
 	auto part = shared_ptr<PolytopeBond>(new PolytopeBond(whole));
-	part->id1 = part1.id;
-	part->id2 = part2.id;
+	part->join(part1.id, part2.id, *face);
 	part->adoptBodies(bodies, /*anew*/ true);
-	part->takeArea(*face);
 	part->attach(1, *part1.state, Vector3r::Zero(), side1.origin + side1.axes * place, side1.axes * turn);
 	part->attach(2, *part2.state, Vector3r::Zero(), side2.origin + side2.axes * place, side2.axes * turn);
 	if (whole.yields()) part->lastingOpenings = openingsOfPart(whole, *part, place, turn);

@@ -15,8 +15,10 @@ void PolytopeBond::adoptBodies(const BodyContainer& bodies, bool anew)
 	body2_.adopt(id2, bodies, anew);
 }
 
-void PolytopeBond::takeArea(const polytope::CommonFace& face)
+void PolytopeBond::join(Body::id_t first, Body::id_t second, const polytope::CommonFace& face)
 {
+	id1           = first;
+	id2           = second;
 	area          = face.area;
 	secondMoments = face.second;
 	corners.clear();

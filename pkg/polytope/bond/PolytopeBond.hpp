@@ -22,8 +22,8 @@ public:
 	}
 	/// Moment per rotation of its bodies against each other [N m/rad], world axes. `axes`: the bond's.
 	Matrix3r rotationStiffness(const Matrix3r& axes) const { return axes * angularStiffness().asDiagonal() * axes.transpose(); }
-	/// Area, moments and corners of the face.
-	void takeArea(const polytope::CommonFace& face);
+	/// Joins these bodies over the face that they have in common: its area, moments and corners.
+	void join(Body::id_t first, Body::id_t second, const polytope::CommonFace& face);
 	/// Sets point and axes on the side of body `which`, 1 or 2: they are these in the world, where the body is now, moved by `shift`.
 	void attach(int which, const State& state, const Vector3r& shift, const Vector3r& point, const Quaternionr& axes);
 	/// Sets force, moment, energy, their arms and the stresses from where the bodies are, body 2 in the period of body 1 by `shift`.

@@ -174,9 +174,7 @@ namespace {
 	{
 		auto              bond = shared_ptr<PolytopeBond>(new PolytopeBond(pattern));
 		const Quaternionr axes(face.axes);
-		bond->id1 = body1.id;
-		bond->id2 = body2.id;
-		bond->takeArea(face);
+		bond->join(body1.id, body2.id, face);
 		bond->attach(1, *body1.state, Vector3r::Zero(), face.centroid, axes);
 		bond->attach(2, *body2.state, shift, face.centroid, axes);
 		bond->point   = face.centroid;

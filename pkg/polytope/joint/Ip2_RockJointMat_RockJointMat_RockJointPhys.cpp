@@ -172,8 +172,10 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::make(
 
 	if (m1.closure || m1.strength) takeLaws(*phys, m1, m2, normal, shear, angle);
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
-		if (phys->laws.get() && !phys->laws.get()->closure.isLinear()) geom->closure.make().law = phys->laws.get()->closure;
-		else geom->closure.clear();
+		if (phys->laws.get() && !phys->laws.get()->closure.isLinear()) {
+			geom->closure.make().law = phys->laws.get()->closure;
+			geom->energyPerStiffness = -1; // this step's is that of a linear spring
+		} else geom->closure.clear();
 		geom->stiffnessRule = std::int8_t(rule);
 		geom->needsArea     = true;              // shear acts over it
 		phys->contactArea   = geom->contactArea; // a new contact's geometry has it already

@@ -88,14 +88,12 @@ namespace {
 	/// What energies are counted from in the next step.
 	void beginEnergies(RockJointPhys& phys, const PolytopeGeom& geom, const Body& part1, const Body& part2)
 	{
-		const Real       force  = phys.normalForce.dot(geom.normal);
-		const Real       normal = force == 0 ? Real(0) : phys.normalEnergy(geom, force);
-		LastStepOfJoint& last   = phys.lastStep.make();
-		last.arm1               = geom.contactPoint - part1.state->pos;
-		last.arm2               = geom.contactPoint - part2.state->pos;
-		last.moment             = phys.momentAbout(geom.contactPoint, geom.normal)
+		LastStepOfJoint& last = phys.lastStep.make();
+		last.arm1             = geom.contactPoint - part1.state->pos;
+		last.arm2             = geom.contactPoint - part2.state->pos;
+		last.moment           = phys.momentAbout(geom.contactPoint, geom.normal)
 		        + (phys.bond ? Vector3r(Vector3r::Zero()) : phys.normalMoment(geom.turningArm));
-		last.stored = phys.bond ? phys.bond->energy : Real(normal + phys.shearEnergy());
+		last.stored = phys.presentNormalEnergy(geom) + phys.shearEnergy();
 	}
 
 	/// Puts a contact in the place of the pair that the collider has made, whose bodies may be in the other order. False if that pair is a real contact.
@@ -135,6 +133,7 @@ bool continueBetween(Scene& scene, const Interaction& whole, const Body& whole1,
 		phys->setStiffnesses(geom.share);
 		takeShear(*phys, wholePhys, geom);
 		if (touches(geom)) phys->normalForce = phys->normalSpring(geom.penetrationDepth) * geom.normal;
+		if (phys->laws.get()) phys->stiffen(geom.penetrationDepth);
 	}
 	if (wholePhys.lastStep.get()) beginEnergies(*phys, geom, *part1, *part2);
 	made->phys         = phys;

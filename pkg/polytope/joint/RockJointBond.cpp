@@ -26,10 +26,8 @@ namespace {
 		auto              bond   = shared_ptr<PolytopeBond>(new PolytopeBond);
 		const Vector3r    normal = face.axes.col(0), half = (face.gap * normal + slide) / 2;
 		const Quaternionr axes(face.axes);
-		bond->id1      = contact.getId1();
-		bond->id2      = contact.getId2();
+		bond->join(contact.getId1(), contact.getId2(), face);
 		bond->cellDist = contact.cellDist;
-		bond->takeArea(face);
 		bond->attach(1, state1, Vector3r::Zero(), face.centroid - half, Quaternionr::FromTwoVectors(normal, face.normal1) * axes);
 		bond->attach(2, state2, shift, face.centroid + half, Quaternionr::FromTwoVectors(normal, -face.normal2) * axes);
 		bond->frictionAngle = 0; // the joint has it

@@ -11,6 +11,13 @@ namespace yade {
 
 Real RockJointPhys::ownSpring(Real overlap) const { return kn * laws.get()->closure.pressure(overlap + dilation - restOverlap); }
 
+Real RockJointPhys::stiffen(Real overlap)
+{
+	const Real tangent = laws.get()->closure.tangent(overlap + dilation - restOverlap);
+	kn *= tangent;
+	return tangent;
+}
+
 bool RockJointPhys::ownHistory() const { return laws.get() && laws.get()->slipPath > 0; }
 
 Real RockJointPhys::energyPerStiffness(Real overlap) const
@@ -53,8 +60,7 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::followOwnLaws(RockJointPhys& p
 {
 	LawsOfJoint& laws  = phys.laws.make();
 	laws.slipBefore    = phys.slip;
-	const Real tangent = laws.closure.tangent(overlap + phys.dilation - phys.restOverlap);
-	phys.kn *= tangent;
+	const Real tangent = phys.stiffen(overlap);
 	if (tangent > Real(polytope::tolerance::stiffening) * laws.stiffening) {
 		laws.stiffening = tangent;
 		stiffened_      = true;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint/RockJointPhys.hpp"
 
-#include "contact/PolytopeGeom.hpp"
 #include "host/Prefetch.hpp"
 
 #include <core/Scene.hpp>
@@ -62,8 +61,14 @@ Real RockJointPhys::normalEnergy(const PolytopeGeom& geom, Real force) const
 {
 	if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && dilation == 0 && restOverlap == 0)
 		return kn * geom.energyPerStiffness;
+	if (force == 0) return 0; // an open joint with a closure law, too
 	if (laws.get()) return kn * energyPerStiffness(geom.penetrationDepth + dilation - restOverlap);
 	return kn > 0 ? force * force / (2 * kn) : Real(0);
+}
+
+Real RockJointPhys::presentNormalEnergy(const PolytopeGeom& geom) const
+{
+	return bond ? Real(bond->energy - shearEnergy()) : normalEnergy(geom, (normalForce - normalViscous).dot(geom.normal));
 }
 
 bool RockJointPhys::bearsTension(Real force) const { return force <= presentTensileStrength() * contactArea; }

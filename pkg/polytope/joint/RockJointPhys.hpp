@@ -5,6 +5,7 @@
 #include <pkg/dem/FrictPhys.hpp>
 
 #include "bond/PolytopeBond.hpp"
+#include "contact/PolytopeGeom.hpp"
 #include "host/FlatArchive.hpp"
 #include "host/Seldom.hpp"
 #include "joint/LawsOfJoint.hpp"
@@ -16,8 +17,6 @@
 /// Signs: forces are those on body 2 from body 1 (as everywhere in YADE), the normal points from body 1 to body 2, so a
 /// compressed contact has normalForce·normal > 0. Slip is body 2's relative to body 1.
 namespace yade {
-
-class PolytopeGeom;
 
 /// What the law remembers of a joint's last step where energies are tracked.
 struct LastStepOfJoint {
@@ -78,6 +77,10 @@ public:
 	Real energyPerStiffness(Real overlap) const;
 	/// Energy of the normal spring with this force [J]; a contact surface has the energy whose gradient its force is.
 	Real normalEnergy(const PolytopeGeom& geom, Real force) const;
+	/// The same with the present force, also of a joint that acts as a bond, whose shear has the rest of the bond's.
+	Real presentNormalEnergy(const PolytopeGeom& geom) const;
+	/// Gives kn, while it is that of the linear spring, the slope of the joint's own closure law at this overlap; returns that slope over the initial stiffness.
+	Real stiffen(Real overlap);
 	bool hasOwnStrength() const;
 	/// All slip of a joint with a shear law of its own; the length of the slip of others [m].
 	Real slipLength() const;
@@ -194,8 +197,9 @@ friction, peak or residual.)""",
 		        "law of its own (:yref:`RockJointMat.strength`) [m]; for others the length of :yref:`slip<RockJointPhys.slip>`.")
 		.add_property("reduction", &RockJointPhys::getReduction, &RockJointPhys::setReduction, "What tan φ of a shear law of its own is "
 		        "divided by [-]; 1 for Mohr-Coulomb, whose values are divided themselves (polytope.factorOfSafety).")
-		.def("energyPerStiffness", &RockJointPhys::energyPerStiffness, boost::python::arg("closure"),
-		        "Energy of the normal spring over :yref:`kn<NormPhys.kn>`, when it is closed that far [m²].")
+		.def("normalEnergy", &RockJointPhys::presentNormalEnergy, boost::python::arg("geom"),
+		        "Elastic energy of the normal spring [J] in the contact that has this geometry, as the law books it; of a joint that acts as "
+		        "a :yref:`bond<RockJointPhys.bond>`, the bond's without that of :yref:`shearEnergy<RockJointPhys.shearEnergy>`.")
 		.add_property("shearEnergy", &RockJointPhys::shearEnergy, "Elastic energy of the shear bed [J]; viscous forces are left out.")
 		.add_property("ks", &RockJointPhys::getKs, &RockJointPhys::setKs, "Present shear stiffness [N/m].")
 	);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The mechanical energy of a scene, as exactly as its time steps define it."""
 
-from yade import O, RockJointPhys, Vector3
+from yade import O, PolytopeGeom, RockJointPhys, Vector3
 
 from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
@@ -60,19 +60,12 @@ def _moves(contact):
 def storedEnergy(contact):
 	"""(energy of the normal spring, of the shear spring) of a contact [J], as its law books them in O.energy.
 
-	A geometry that has the energy whose gradient the force is counts where the force is its own. With dilation, with a rest overlap or in tension a rock joint's law has another one, of its
-	closure.
+	A contact of another law counts as a linear spring, but where its geometry has the energy whose gradient the force is.
 	"""
 	geom, phys = contact.geom, contact.phys
+	if isinstance(phys, RockJointPhys) and isinstance(geom, PolytopeGeom):
+		return phys.normalEnergy(geom), phys.shearEnergy
 	perStiffness = getattr(geom, 'energyPerStiffness', -1)
-	if isinstance(phys, RockJointPhys):
-		asBond = phys.intact and phys.bond is not None  # the geometry has the bond's energy then
-		if not asBond and (perStiffness < 0 or geom.penetrationDepth <= 0 or phys.dilation != 0 or phys.restOverlap != 0):
-			closure = geom.penetrationDepth + phys.dilation - phys.restOverlap
-			if closure < 0:  # a joint that bears no tension is open, and has no force
-				closure = min(closure + phys.lastingOpening, 0) if phys.normalForce.dot(geom.normal) < 0 else 0
-			perStiffness = phys.energyPerStiffness(closure)
-		return phys.kn * perStiffness, phys.shearEnergy
 	if perStiffness < 0:
 		perStiffness = max(geom.penetrationDepth, 0) ** 2 / 2
 	return phys.kn * perStiffness, phys.shearForce.squaredNorm() / (2 * phys.ks) if phys.ks > 0 else 0

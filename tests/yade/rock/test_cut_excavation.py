@@ -6,7 +6,18 @@ import math
 import numpy as np
 import pytest
 from rockScenes import stressedMass
-from yade import FrictMat, HyperbolicClosure, NewtonIntegrator, O, PolytopeBonds, RockJointMat, Vector3, plot, polytope
+from yade import (
+	FrictMat,
+	HyperbolicClosure,
+	NewtonIntegrator,
+	O,
+	PolytopeBonds,
+	RockJointMat,
+	Vector3,
+	plot,
+	polytope,
+)
+from yade.polytope.measures.energy import storedEnergy
 from yade.polytope.rock.history import histories
 from yade.polytope.scene.relaxing import relaxing
 
@@ -518,6 +529,28 @@ def testAJointThatStiffensAsItClosesBearsThePartsWeight():
 	assert part.normalForce.norm() == pytest.approx(weight, rel=1e-3)
 	polytope.settle()
 	assert part.normalForce.norm() == pytest.approx(weight / 2, rel=1e-3)
+
+
+def testAJointThatStiffensAsItClosesKeepsItsEnergy():
+	"""Half of what the joint can close by is closed. The part is on the whole face: its joint has the energy of the whole's, at once and in the next step, and no energy comes or goes
+	then: hyperbola's ∫ σ dδ = −k A δₘ² (δ/δₘ + ln(1 − δ/δₘ))."""
+	most = 1e-4
+	onFloor(closure=HyperbolicClosure(maximumClosure=most))
+	O.bodies[1].state.pos = (0, 0, 1 - most / 2)
+	O.bodies[1].state.vel = Vector3.Zero
+	undamped()
+	O.engines[-1].dead = True
+	O.dt = 1e-8  # nothing moves
+	O.trackEnergy = True
+	O.step()
+	stored, total = float(O.energy['elastPotential']), float(O.energy.total())
+	assert stored == pytest.approx(-kn * most**2 * (0.5 + math.log(0.5)), rel=1e-3)
+	(left,) = polytope.excavate(**above(1, False))[1]
+	assert sum(storedEnergy(contactOf(left))) == pytest.approx(stored, rel=1e-3)
+	assert contactOf(left).phys.kn == pytest.approx(kn / 0.5**2, rel=1e-3)
+	O.step()
+	assert O.energy['elastPotential'] == pytest.approx(stored, rel=1e-3)
+	assert abs(float(O.energy.total()) - total) < 1e-3 * stored
 
 
 def testAClumpOnAFloorIsCutAsOneBody():
