@@ -4,17 +4,13 @@
 import math
 import numbers
 
-from yade import Clump, O, Polytope, PolytopeBond, PolytopeBonds
+from yade import Clump, O, Polytope, PolytopeBond, PolytopeBonds, _polytope
 
 from ..arguments import namedArguments, warn
 from ..precision import isNumber, real
 from ..scene.present import EngineOfScene
 
 __all__ = ['bond', 'bonds', 'facingFaces', 'intactBonds', 'madeBonds', 'presentBonds', 'removedBonds']
-
-facing = 0.01
-"""Default of the largest angle between bonded faces [rad]: half a degree, what rounding and settling leave between faces meant to touch."""
-
 
 ofScene = EngineOfScene(PolytopeBonds, 'intactInScene')
 """The last engine PolytopeBonds that was in O.engines: a list of engines that is set later may lack it."""
@@ -24,7 +20,7 @@ ofScene = EngineOfScene(PolytopeBonds, 'intactInScene')
 def bond(
 	ids=None,
 	gap=None,
-	angle=facing,
+	angle=_polytope.facingOfJoints,
 	normalStiffness=None,
 	shearStiffness=None,
 	bendingStiffness=None,
@@ -109,7 +105,7 @@ def presentBonds():
 def facingFaces():
 	"""The faces that bodies have at each other's, as *bond* finds them: PolytopeBonds that never fail and are in no engine, also where bodies touch without a force."""
 	pattern = PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
-	return PolytopeBonds().find([], -1, facing, pattern)
+	return PolytopeBonds().find([], -1, _polytope.facingOfJoints, pattern)
 
 
 def removedBonds():

@@ -4,15 +4,12 @@
 import math
 from collections.abc import Iterable
 
-from yade import O, RockJointMat
+from yade import O, RockJointMat, _polytope
 
 from ..arguments import materialOf
 from ..bodies.halfSpaces import worldPlanes
 
 __all__ = ['faceMaterials', 'facesThatCount', 'facing', 'materialOfPlane', 'materialsOf', 'materialsOfContact', 'materialsOfFaces']
-
-facingOfJoints = 0.01
-"""Angle [rad] between a face and a contact up to which the face lies on it (src/bond/BondTolerances.hpp)."""
 
 
 def materialsOfFaces(given, entries, own):
@@ -73,9 +70,9 @@ def facing(normals, along):
 
 
 def facesThatCount(cosine1, cosine2):
-	"""Whether the faces of body 1 and of body 2 count in a contact, by the cosines of their angles with it: both where both lie on it, else the closer one, as the physics of
-	rock joints has it (Ip2_RockJointMat_RockJointMat_RockJointPhys)."""
-	if min(cosine1, cosine2) > math.cos(facingOfJoints):
+	"""Whether the faces of body 1 and of body 2 count in a contact, by the cosines of their angles with it: both where both lie on it (src/bond/BondTolerances.hpp), else the
+	closer one, as the physics of rock joints has it (Ip2_RockJointMat_RockJointMat_RockJointPhys)."""
+	if min(cosine1, cosine2) > math.cos(_polytope.facingOfJoints):
 		return True, True
 	return cosine1 >= cosine2, cosine1 < cosine2
 
