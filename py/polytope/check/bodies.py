@@ -6,6 +6,7 @@ import math
 import numpy as np
 from yade import Box, Facet, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, Wall
 
+from ..bodies.meshes.facets import haveAreas
 from ..bonding.bonds import bonds
 from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
@@ -42,6 +43,7 @@ def bodyFindings(scene):
 		mass,
 		size,
 		flatBoxes,
+		flatFacets,
 		orientation,
 		frictionAngle,
 		weakStrengths,
@@ -149,6 +151,15 @@ def flatBoxes(scene):
 	if flat:
 		seen = f'{_number(flat)} is a Box with extents {tuple(map(float, flat[0].shape.extents))}: without a thickness nothing rests on it'
 		yield 'size', seen, 'give it a thickness, or take a Wall or Facets'
+
+
+def flatFacets(scene):
+	facets = [body for body in scene.bodies if isinstance(body.shape, Facet)]
+	corners = np.array([[list(map(float, corner)) for corner in body.shape.vertices] for body in facets]).reshape(-1, 3, 3)
+	flat = [facets[k] for k in np.flatnonzero(~haveAreas(corners))]
+	if flat:
+		seen = f'{_number(flat)} is a Facet with corners on one line: its contacts have no normal, and are counted as failures'
+		yield 'size', seen, 'leave it out, as polytope.facets does, or correct its corners'
 
 
 def orientation(scene):

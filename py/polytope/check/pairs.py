@@ -28,6 +28,8 @@ unsuitedLaws = (
 notPeriodicLaws = ('Law2_ScGeom_FrictViscoPhys_CundallStrackVisco', 'Law2_ScGeom_MindlinPhys_Mindlin')
 """Laws that do so in a periodic cell."""
 
+noFunctor = 'the InteractionLoop has no functor for {} and {}: they pass through each other'
+
 
 def pairFindings(scene):
 	yield from bounds(scene)
@@ -69,8 +71,7 @@ def _contacts(scene):
 			candidates = _candidates(one.shape, other.shape)
 			advice = f'add {candidates[0]}()' if candidates else contactsToChoose(one.shape, other.shape, ())
 			if candidates or _isOfExtension(one) or _isOfExtension(other):
-				seen = f'the InteractionLoop has none for {one.shape} and {other.shape}: they pass through each other'
-				yield 'contact functors', seen, advice
+				yield 'contact functors', noFunctor.format(one.shape, other.shape), advice
 			continue
 		yield from (finding for loop, functor in loops[:1] for finding in forces(scene, loop, functor, one, other))
 
@@ -118,14 +119,16 @@ def geometry(scene, one, other):
 	"""Shapes that no contact with a polytope is computed for."""
 	present = {type(functor).__name__ for loop in scene.loops for functor in loop.geomDispatcher.functors}
 	advice = contactsToChoose(one.shape, other.shape, present)
-	for kind in (one, other):
-		if _isDerived(kind):
-			seen = f'there is no functor for {one.shape} and {other.shape}: {kind.shape} is taken for the Polytope of its planes'
-			return 'contact functors', seen, advice
+	shapes = [scene.examples[kind].shape for kind in (one, other)]
+	derived = next((kind for kind in (one, other) if _isDerived(kind)), None)
+	if derived and any(_functor(loop.geomDispatcher, *shapes) for loop in scene.loops):
+		seen = f'there is no functor for {one.shape} and {other.shape}: {derived.shape} is taken for the Polytope of its planes'
+		return 'contact functors', seen, advice
+	if derived:
+		return 'contact functors', noFunctor.format(one.shape, other.shape), advice
 	for kind in (one, other):
 		if kind.shape not in exactly and ownContactsOf(one.shape, other.shape):
-			seen = f'the InteractionLoop has no functor for {one.shape} and {other.shape}: they pass through each other'
-			return 'contact functors', seen, advice
+			return 'contact functors', noFunctor.format(one.shape, other.shape), advice
 		if kind.shape not in exactly:
 			taken = getattr(yade, kind.shape, None)
 			like = ', and is taken for a sphere' if taken and issubclass(taken, yade.Sphere) else ''

@@ -891,6 +891,18 @@ def testABoxWithoutThickness():
 	assert 'without a thickness' in onlyFinding('size').seen
 
 
+def testAFacetWithoutAnArea():
+	"""Told before the run, in which its contacts would fail; one that is only small or long is none of this."""
+	scene(
+		lambda: [
+			utils.facet([(-3, 0, -2), (0, 0, -2), (3, 0, -2)], fixed=True),
+			utils.facet([(0, 0, -2), (3, 0, -2), (0, 1e-6, -2)], fixed=True),
+		]
+	)
+	found = onlyFinding('size')
+	assert 'body 2 is a Facet with corners on one line' in found.seen and 'corners' in found.advice
+
+
 def testAnOrientationThatStretches():
 	scene()
 	O.bodies[0].state.ori = Quaternion(2, 0, 0, 1)

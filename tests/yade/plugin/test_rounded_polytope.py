@@ -192,6 +192,22 @@ answer([[one.what, one.seen, one.advice] for one in polytope.check(O)])
 	assert any('RoundedPolytope' in seen and 'Facet' in seen and add in advice for _, seen, advice in found), found
 
 
+def testWithoutAnyFunctorTheyPassThroughEachOther(rounded):  # noqa: F811
+	"""Where the loop has no functor of polytopes, nothing is taken for its planes: check says that they do not touch."""
+	script = (
+		start
+		+ """
+material()
+O.bodies.append([cube((0, 0, 0), fixed=True), cube((0, 0, 2 * h + 2 * r))])
+O.engines = polytope.engines(geometry=[Ig2_Sphere_Sphere_ScGeom()])
+answer([[one.what, one.seen, one.advice] for one in polytope.check(O) if one.what == 'contact functors'])
+"""
+	)
+	((_, seen, advice),), _ = inYade(script, rounded)
+	assert seen == 'the InteractionLoop has no functor for RoundedPolytope and RoundedPolytope: they pass through each other'
+	assert 'Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom()' in advice
+
+
 def testSizesHaveTheMargin(rounded):  # noqa: F811
 	"""A core of 2 mm in a ball of 0.1 m is a body of 0.2 m: check has no word of its size or stiffness, and the collider looks as far as for one."""
 	script = (

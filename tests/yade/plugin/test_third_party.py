@@ -141,7 +141,7 @@ answer([found(facet, contacts), found(facet, [*contacts, Ig2_Facet_Rod_PolytopeG
 """
 	)
 	(facet, with_, tetra, polygon), _ = inYade(script, rods)
-	none = 'the InteractionLoop has none for {} and Rod: they pass through each other'
+	none = 'the InteractionLoop has no functor for {} and Rod: they pass through each other'
 	assert facet == [
 		[none.format('Facet'), 'add Ig2_Facet_Rod_PolytopeGeom() to the InteractionLoop; polytope.engines() without geometry has it']
 	]

@@ -10,7 +10,7 @@ from ..yadeShapes import facetOf
 from .digits import warnOfRounding
 from .files import readMesh
 
-__all__ = ['facets']
+__all__ = ['facets', 'haveAreas']
 
 flat = 1e-9
 """Twice the area of a triangle over the square of its longest edge below which it has none."""
@@ -33,14 +33,24 @@ def facets(path, scale=1.0, shift=(0, 0, 0), **body):
 	factor, moved = positive(scale, 'scale'), vector(shift, 'shift')
 	mesh = readMesh(path, 'path')
 	corners = mesh.points[mesh.triangles]
-	edges = corners - np.roll(corners, 1, axis=1)
-	lengths = np.linalg.norm(edges, axis=2)
-	solid = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) > flat * lengths.max(axis=1, initial=0) ** 2
+	solid = haveAreas(corners)
 	if not solid.any():
 		raise ValueError(f"path: '{path}' has no triangle with an area")
 	if not solid.all():
 		warn(f"path: {(~solid).sum()} of the {len(solid)} triangles of '{path}' have no area and are left out")
-	warnOfRounding(path, 'path', mesh.points, float(np.median(lengths[solid])), 'the usual length of an edge')
+	warnOfRounding(
+		path, 'path', mesh.points, float(np.median(np.linalg.norm(_edges(corners[solid]), axis=2))), 'the usual length of an edge'
+	)
 	places = [factor * Vector3(*point) + moved for point in mesh.points.tolist()]
 	pieces = ofOneColour(body)
 	return [facetOf([places[k] for k in three], **pieces) for three in mesh.triangles[solid].tolist()]
+
+
+def haveAreas(corners):
+	"""Which of these triangles (n, 3, 3) have an area."""
+	edges = _edges(corners)
+	return np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) > flat * (edges**2).sum(axis=2).max(axis=1, initial=0)
+
+
+def _edges(corners):
+	return corners - np.roll(corners, 1, axis=1)
