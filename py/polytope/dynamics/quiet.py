@@ -8,7 +8,7 @@ from ..arguments import namedArguments, number, vector
 from ..bonding.bonds import madeBonds
 from ..pictures.faces import localVertices
 from ..precision import real
-from ..rock.faces import areaVector
+from ..rock.faces import areaVector, centroidOf
 from ..scene.permanentLoads import permanentLoads
 from ..scene.present import insertEngine, placeOfForces
 from ._bodies import bodiesOf, historyOf, integrator
@@ -97,21 +97,14 @@ def _outerFace(number, normal):
 		)
 	turned = np.array(body.state.ori.conjugate() * Vector3(*map(real, normal)), float)
 	vertices = localVertices(body.shape)
-	faces = [_area(vertices[face]) for face in body.shape.faces]  # of a polygon those of its prism
-	outer = [(np.linalg.norm(area), centroid) for area, centroid in faces if area @ turned > outward * np.linalg.norm(area)]
+	faces = [(areaVector(corners), corners) for corners in (vertices[face] for face in body.shape.faces)]  # of a polygon those of its prism
+	outer = [(np.linalg.norm(area), centroidOf(corners)) for area, corners in faces if area @ turned > outward * np.linalg.norm(area)]
 	if not outer:
 		raise ValueError(
 			f'ids: body {number} has no face of the normal {tuple(np.round(normal, 3).tolist())}; name the bodies at the boundary alone'
 		)
 	areas, centroids = zip(*outer, strict=True)
 	return float(sum(areas)), np.average(centroids, axis=0, weights=areas)
-
-
-def _area(corners):
-	"""(outward normal times area [m²], centroid [m]) of a convex face, by the triangles about its first corner."""
-	first, second = corners[1:-1] - corners[0], corners[2:] - corners[0]
-	weights = np.linalg.norm(np.cross(first, second), axis=1)
-	return areaVector(corners), corners[0] + np.average((first + second) / 3, axis=0, weights=weights)
 
 
 def _contactForces(ids):
