@@ -272,6 +272,41 @@ def testTheErrorOfAGasFallsWithTheSquareOfTheTimeStep(model, step):
 	assert math.sqrt(squares[0] / squares[1]) > 10
 
 
+@pytest.mark.parametrize('dimension', [2, 3])
+def testABlockAtRestOnAFloorKeepsItsKineticEnergyForAMillionSteps(dimension):
+	"""With FrictMat and YADE's own law, without damping: it sits at the depth of its weight, tilted by a tenth of that over its half width, rocks and bobs for ever."""
+	stiffness, half = 1e7, 0.5
+	O.materials.append(FrictMat(density=2500, young=1, poisson=0.5, frictionAngle=math.radians(35)))
+	depth = 2500 * (2 * half) ** 3 * 10 / stiffness
+	tilt = 0.1 * depth / half
+	if dimension == 2:
+		O.bodies.append(polytope.polygon([(-2, -1), (2, -1), (2, 0), (-2, 0)], fixed=True))
+		c, s = half * math.cos(tilt), half * math.sin(tilt)
+		corners = [(c - s, c + s), (-c - s, c - s), (-c + s, -c - s), (c + s, s - c)]
+		O.bodies.append(polytope.polygon([(x, half - depth + y) for x, y in corners]))
+	else:
+		O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
+		O.bodies.append(polytope.cuboid((0, 0, half - depth), (half, half, half), Quaternion((0, 1, 0), tilt)))
+	given = {name: MatchMaker(algo='val', val=value) for name, value in (('kn', stiffness), ('ks', stiffness / 2))}
+	O.engines = polytope.engines(
+		gravity=(0, -10, 0) if dimension == 2 else (0, 0, -10),
+		physics=Ip2_FrictMat_FrictMat_FrictPhys(**given),
+		law=Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False),
+		damping=0,
+	)
+	state = O.bodies[1].state
+	inertia = state.inertia[2 if dimension == 2 else 1]
+	peaks = []
+	for _ in range(10):
+		peak = 0
+		for _ in range(100000):
+			O.step()
+			peak = max(peak, (state.mass * state.vel.squaredNorm() + inertia * state.angVel.squaredNorm()) / 2)
+		peaks.append(peak)
+	assert O.iter == 1000000 and peaks[0] > 0.1
+	assert peaks == pytest.approx([peaks[0]] * 10, rel=1e-3)
+
+
 def testEnergyIsThereWhereItIsAskedFor():
 	joint('foundation')
 	floor = O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))

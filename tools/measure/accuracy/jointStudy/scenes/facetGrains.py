@@ -10,7 +10,7 @@ from yade.polytope import cuboid, fromVertices, regular
 
 from .engines import jointEngines
 
-__all__ = ['EnergyBook', 'FacetDrum', 'FacetFunnel', 'cylinderFacets', 'mixedGrain']
+__all__ = ['EnergyBook', 'FacetDrum', 'FacetFunnel', 'FacetGrains', 'cylinderFacets', 'mixedGrain']
 
 circumradiusOfUnit = {
 	4: (8 * math.sqrt(3) / 27) ** (-1 / 3),
