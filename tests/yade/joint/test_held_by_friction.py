@@ -208,9 +208,9 @@ def testABroadArchWithALoadAcrossNeedsTheFrictionOfLimitAnalysis():
 	assert not held(arch(0.6, 0.97 * least), leaning(0.3), ramp=0.7, hold=0.3, before=0)
 
 
-def wall(thickness, friction, courses=4, length=1.2, brick=0.4, high=0.2):
+def wall(thickness, friction, courses=4, length=1.2, brick=0.4, high=0.2, K=stiffness):
 	"""Bricks in running bond on a fixed base. Returns their ids."""
-	joint(friction)
+	joint(friction, K, K)
 	block(3, (-2, 2), (-0.2, 0), 2, fixed=True)
 	ids = []
 	for course in range(courses):
@@ -260,3 +260,30 @@ def testALadderStandsWhereFrictionAtBothEndsHoldsIt(dimension, turned, K, margin
 	least = atan((1 - friction**2) / (2 * friction + (1 + friction**2) * height / 2))
 	assert ladder(dimension, least + radians(margin), friction, turned, K)
 	assert not ladder(dimension, least - radians(margin), friction, turned, K)
+
+
+def topplingAlong(courses, length, K, brick=0.4, high=0.2):
+	"""Tangent at which a part of a wall turns about the lower corner of an end brick: that brick, and all that lies on what turns, so half a brick more with each course. The least over
+	all courses; turned on the elastic joint below it as a block with the same arms and weight for each metre of breadth."""
+
+	def arms(course):
+		first = brick / 2 if course % 2 else brick
+		lengths = np.minimum(first + brick / 2 * np.arange(courses - course), length)
+		total = lengths.sum()
+		return (lengths**2).sum() / 2 / total, (lengths * high * (np.arange(lengths.size) + 0.5)).sum() / total, total * high
+
+	behind, above, area = min(map(arms, range(courses)), key=lambda each: each[0] / each[1])
+	return behind / above, elasticToppling(2 * behind, 2 * above, density * gravity * area, K)
+
+
+@pytest.mark.parametrize('length, rigid', [(0.4, 0.3333), (0.8, 0.5349), (1.2, 0.5789)])
+def testABrickWallIsToppledAlong(length, rigid):
+	"""A pier of a brick and two halves in turn topples as one body; a longer wall parts along its bond, from the half brick at the end of the second course up (as one body it would stand
+	to a tangent of 0.67, and 1). Friction does not let it slide."""
+	K = 1e10
+	least, elastic = topplingAlong(6, length, K)
+	assert least == pytest.approx(rigid, abs=1e-4)
+	assert 0.94 < elastic / least < 0.97
+	for part in (0.98, 1.02):
+		load = gravity * Vector3(part * elastic, 0, -1)
+		assert held(wall(0.2, 0.8, courses=6, length=length, K=K), load, ramp=1, hold=0.7, before=0, fallen=0.02) == (part < 1)
