@@ -23,7 +23,7 @@ from killers import CoreTests, PluginTests
 from schemata import Schemata, project
 from sites import Mutant, sites
 
-core = ('src/centre', 'src/contact', 'src/program', 'src/numbers', 'src/shape', 'src/timestep')
+core = tuple(str(folder.relative_to(project)) for folder in sorted((project / 'src').iterdir()) if folder.is_dir())
 plugin = tuple(
 	f'pkg/polytope/{name}.cpp'
 	for name in '''joint/RockJointLaw joint/Ip2_RockJointMat_RockJointMat_RockJointPhys joint/RockJointShear
@@ -36,8 +36,8 @@ shareOfConstants = 0.15
 shareOfPlugin = 0.2
 
 
-def chosen(count, seed):
-	"""This number of mutants, each place at most once."""
+def chosen(count, seed, files=('',)):
+	"""This number of mutants in files whose names contain one of *files*, each place at most once."""
 	chance = random.Random(seed)
 	places = {True: [], False: []}
 	for folder in core:
@@ -46,11 +46,14 @@ def chosen(count, seed):
 				places[False] += sites(path, str(path.relative_to(project)))
 	for name in plugin:
 		places[True] += sites(project / name, name)
+	for ofPlugin, some in places.items():
+		places[ofPlugin] = [place for place in some if any(part in place[0] for part in files)]
+	shares = {True: shareOfPlugin, False: 1 - shareOfPlugin} if places[True] and places[False] else {True: 1, False: 1}
 	found = []
-	for ofPlugin, share in ((False, 1 - shareOfPlugin), (True, shareOfPlugin)):
+	for ofPlugin in (False, True):
 		for constant, part in ((False, 1 - shareOfConstants), (True, shareOfConstants)):
 			some = [place for place in places[ofPlugin] if (place[3] == 'constant') == constant]
-			found += chance.sample(some, min(len(some), round(count * share * part)))
+			found += chance.sample(some, min(len(some), round(count * shares[ofPlugin] * part)))
 	# numbers follow the files, so that one choice is the same program whatever is taken out of it
 	return [
 		Mutant(i + 1, *place[:5], chance.choice(place[5]), place[6]) for i, place in enumerate(sorted(found, key=lambda place: place[:3]))
@@ -80,6 +83,7 @@ def head(arguments):
 		'sources': sourcesKey(),
 		'seed': arguments.seed,
 		'asked': arguments.mutants,
+		'files': arguments.file,
 		'date': datetime.datetime.now(datetime.UTC).strftime('%Y-%m-%d'),
 		'machine': f'{(model or ["?"])[0]}, {platform.machine()}',
 	}
@@ -120,7 +124,7 @@ def parsed():
 	parser.add_argument(
 		'--only', choices=['core', 'plugin'], help="only mutants of src/ with the core's tests, or only the tests of the plug-in"
 	)
-	parser.add_argument('--file', action='append', help='only mutants of files whose names contain this; may be repeated')
+	parser.add_argument('--file', action='append', help='picks in files whose names contain this alone; may be repeated')
 	parser.add_argument('--id', type=int, action='append', help='only these mutants, anew; may be repeated')
 	parser.add_argument(
 		'--unit',
@@ -139,7 +143,7 @@ def parsed():
 def before(path, results):
 	"""The results of an earlier call for the same sources and the same choice of mutants, or none."""
 	found = json.loads(path.read_text()) if path.exists() else {}
-	same = all(found.get(key) == results[key] for key in ('sources', 'seed', 'asked'))
+	same = all(found.get(key) == results[key] for key in ('sources', 'seed', 'asked', 'files'))
 	return (found['mutants'], found['doNotCompile']) if same else ([], [])
 
 
@@ -162,7 +166,9 @@ def main():
 		results['mutants'] = [entry for entry in results['mutants'] if entry['killedBy']]
 	if arguments.id:
 		results['mutants'] = [entry for entry in results['mutants'] if entry['id'] not in arguments.id]
-	some = [mutant for mutant in chosen(arguments.mutants, arguments.seed) if mutant.id not in results['doNotCompile']]
+	some = [
+		mutant for mutant in chosen(arguments.mutants, arguments.seed, arguments.file or ['']) if mutant.id not in results['doNotCompile']
+	]
 	schemata = Schemata(arguments.output, some, say)
 	schemata.write()
 	schemata.configure()
@@ -173,8 +179,7 @@ def main():
 		results['doNotCompile'] += [mutant.id for mutant in schemata.dropped if mutant.id not in results['doNotCompile']]
 		tests.measure(say)
 		results['leftOut'] = tests.leftOut
-		named = [mutant for mutant in schemata.mutants if not arguments.file or any(part in mutant.file for part in arguments.file)]
-		some = [mutant for mutant in named if takes(mutant) and (not arguments.id or mutant.id in arguments.id)]
+		some = [mutant for mutant in schemata.mutants if takes(mutant) and (not arguments.id or mutant.id in arguments.id)]
 		some = order.sample(some, len(some))
 		if isinstance(tests, CoreTests):
 			judged(some, lambda mutant: tests.verdict(mutant, True), tests, f'{row}, quick', results, path, end, lambda text: None)
