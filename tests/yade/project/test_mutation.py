@@ -11,7 +11,8 @@ import pytest
 
 folder = pathlib.Path(__file__).resolve().parents[3] / 'tools/measure/mutation'
 sys.path.append(str(folder))
-from schemata import namedIn
+from mutation import chosen
+from schemata import namedIn, project
 from sites import Mutant, sites, written
 
 source = '''#include <cstdio>
@@ -83,6 +84,24 @@ def testEachMutantIsTheProgramThatItsNameSays(mutants, tmp_path):
 			said = subprocess.run([tmp_path / 'all'], env=environment, capture_output=True, text=True, timeout=10).stdout
 			assert said == printed(tmp_path, '\n'.join(lines)) != original, mutant
 			assert str(mutant.id) in reached.read_text().split()
+
+
+def testMutantsArePickedInAllFoldersOfTheCore():
+	folders = {str(path.parent.relative_to(project)) for path in chosenFiles(10**6)}
+	assert {str(path.relative_to(project)) for path in (project / 'src').iterdir() if path.is_dir()} <= folders
+	assert {name.split('/')[0] for name in folders} == {'src', 'pkg'}
+
+
+def testMutantsArePickedInTheFilesAskedFor():
+	assert {path.parent.name for path in chosenFiles(40, ['src/shear/', 'src/bond/'])} == {'shear', 'bond'}
+	assert {path.name for path in chosenFiles(40, ['RockJointLaw'])} == {'RockJointLaw.cpp'}
+
+
+def chosenFiles(count, *files):
+	"""Files of so many mutants."""
+	mutants = chosen(count, 1, *files)
+	assert len(mutants) == count or count == 10**6
+	return [project / mutant.file for mutant in mutants]
 
 
 def testMutantsThatDoNotCompileAreNamedByTheMessages():
