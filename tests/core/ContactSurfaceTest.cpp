@@ -253,6 +253,16 @@ TEST(ContactSurface, KeepsItsDigitsAtAllSizes)
 	        100, 100, 95);
 }
 
+TEST(ContactSurface, OfCubesInLineKeepsItsDigitsAtAllSizes)
+{
+	expectExact<3>(
+	        [](int t, auto& r) {
+		        const Pair pair = t % 2 ? stackedPair(t / 2, r) : nearlyInLine(t / 2, r);
+		        return scaled(pair, decades(r, -9, 4));
+	        },
+	        100, 95, 95);
+}
+
 // ------------------------------------------------------------------------------------------------------------ closed forms
 
 /// A floor's face at z = 0 below a cube of side 2 in this orientation, whose lowest point is `depth` below it.
@@ -426,6 +436,93 @@ TEST(ContactSurface, PlanesOfAPencilBoundACellOnce)
 		EXPECT_NEAR(sums.level / flat.sums.level, 1, 1e-8);
 	}
 }
+
+// ------------------------------------------------------------------------------------------------------------------- memory
+
+/// Places in memory: each within all, and none on another.
+template <class T> void expectApart(const T* memory, int size, std::vector<std::pair<const T*, int>> places)
+{
+	std::sort(places.begin(), places.end());
+	const T* free = memory;
+	for (const auto& [begin, count] : places) {
+		EXPECT_GE(begin, free);
+		free = begin + count;
+	}
+	EXPECT_LE(free, memory + size);
+}
+
+TEST(ContactSurface, BuffersAreWithinTheirMemoryAndApart)
+{
+	for (const int total : { 8, 12, 400 }) {
+		using Walk = SurfaceBuffers<Real, 3>;
+		std::vector<Real> numbers(std::size_t(Walk::numbersNeeded(total)));
+		std::vector<int>  indices(std::size_t(Walk::indicesNeeded(total)));
+		const Walk        walk(total, numbers.data(), indices.data());
+		const int         clipped = Walk::clippedRoom(total);
+		EXPECT_GE(walk.length, total + 1); // the plane of no pressure, too
+		expectApart<Real>(numbers.data(), int(numbers.size()),
+		        { { walk.rate[0], walk.length }, { walk.rate[1], walk.length }, { walk.rest, walk.length },
+		                { walk.vertex[0][0], walk.room }, { walk.vertex[0][1], walk.room }, { walk.vertex[0][2], walk.room },
+		                { walk.vertex[1][0], walk.room }, { walk.vertex[1][1], walk.room }, { walk.vertex[1][2], walk.room },
+		                { walk.clipped[0][0], clipped }, { walk.clipped[0][1], clipped }, { walk.clipped[1][0], clipped },
+		                { walk.clipped[1][1], clipped }, { walk.line[0], walk.room }, { walk.line[1], walk.room },
+		                { walk.line[2], walk.room }, { walk.cell, 5 * total }, { walk.dropped, total } });
+		expectApart<int>(indices.data(), int(indices.size()),
+		        { { walk.lineTag, walk.room }, { walk.edge[0], walk.room }, { walk.edge[1], walk.room }, { walk.twin, total },
+		                { walk.queue, Walk::queued * walk.pieces }, { walk.slot, 4 * walk.pieces } });
+
+		using Set = FeasibleBuffers<Real>;
+		numbers.resize(std::size_t(Set::numbersNeeded(total)));
+		const Set set(total, numbers.data(), indices.data());
+		expectApart<Real>(numbers.data(), int(numbers.size()),
+		        { { set.plane, 4 * Set::mostPlanes }, { set.point, 4 * Set::mostVertices }, { set.split, total + padWidth },
+		                { set.slack, total + padWidth }, { set.piece, Set::pieceRows * Set::mostPieces } });
+		EXPECT_GE(Set::indicesNeeded(total), total + 1);
+	}
+}
+
+TEST(ContactSurface, MorePiecesThanThereIsRoomForAreToldOf)
+{
+	const Pair               pair = onFloor(Matrix3::Identity(), Real(0.1));
+	const SurfaceOfPair<3>   own(pair);
+	const PlaneRows<Real, 3> rows   = SurfaceOfPair<3>::rowsAbout(pair, own.origin);
+	PairPlanes<Real, 3>      planes = rows.planes;
+	std::vector<Real>        numbers(std::size_t(SurfaceBuffers<Real, 3>::numbersNeeded(planes.total)));
+	std::vector<int>         indices(std::size_t(SurfaceBuffers<Real, 3>::indicesNeeded(planes.total)));
+	SurfaceBuffers<Real, 3>  buffers(planes.total, numbers.data(), indices.data());
+	for (const int room : { 3, 12, buffers.pieces }) {
+		buffers.pieces = room;
+		SurfaceSums<Real, 3> sums;
+		const auto           status
+		        = contactSurface<Real, 3, 1>(planes, nullptr, 0, pair.size(), own.deepest, SurfaceParts::Cells, buffers, sums);
+		EXPECT_EQ(status, room < 20 ? SurfaceStatus::NoRoom : SurfaceStatus::Found);
+	}
+}
+
+TEST(KeptVertices, ARowIsFoundByItsNameAndOneWithoutANameIsToldOf)
+{
+	const int    first = 40000, total = 80000;
+	KeptVertices kept;
+	for (const int row : { 0, 5, 32766, first, first + 7, first + 32766 }) {
+		const int name = KeptVertices::name(row, first);
+		ASSERT_GE(name, 0);
+		kept.plane[0] = std::uint16_t(name);
+		EXPECT_EQ(kept.row(0, first, total), row);
+	}
+	EXPECT_EQ(KeptVertices::name(32767, first), -1);
+	EXPECT_EQ(KeptVertices::name(first + 32767, first), -1);
+	kept.plane[0] = KeptVertices::noPressure;
+	EXPECT_EQ(kept.row(0, first, total), total);
+	// of bodies with fewer planes
+	kept.plane[0] = std::uint16_t(planeCode(0, 8));
+	EXPECT_EQ(kept.row(0, 8, 16), -1);
+	kept.plane[0] = std::uint16_t(planeCode(1, 8));
+	EXPECT_EQ(kept.row(0, 8, 16), -1);
+	kept.plane[0] = std::uint16_t(planeCode(1, 7));
+	EXPECT_EQ(kept.row(0, 8, 16), 15);
+}
+
+// --------------------------------------------------------------------------------------------------------------- many pieces
 
 TEST(ContactSurface, PiecesOfAFloorAddUp)
 {

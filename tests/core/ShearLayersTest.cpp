@@ -67,6 +67,74 @@ TEST(ShearLayers, WhatJoinsIsUnstrainedAndLeavesFirst)
 	EXPECT_NEAR(bed.area(), 1, 1e-15);
 }
 
+// All go, though sums of their areas differ by their rounding with the order.
+TEST(ShearLayers, NoneStaysOfNoArea)
+{
+	for (const Real first : { 0.1, 0.3, 0.7 }) {
+		ShearLayers bed(first, x);
+		for (const Real more : { 0.2, 0.3, 0.1 }) {
+			bed.setArea(bed.area() + more);
+			bed.setArea(bed.area() * (1 - 1e-3)); // what comes next is another layer
+		}
+		EXPECT_EQ(bed.count(), 4);
+		bed.setArea(0);
+		EXPECT_EQ(bed.count(), 0);
+		EXPECT_EQ(bed.area(), 0);
+	}
+}
+
+/// Layers of area 1, 2, 3, 4 with displacements 0.7, 0.6, 0.4 and 0.1, the last of which does not grow.
+ShearLayers fourLayers()
+{
+	const Real  steps[] = { 0.1, 0.2, 0.3, 0.1 };
+	ShearLayers bed;
+	Real        area = 0;
+	for (int k = 0; k < 4; ++k) {
+		area += k + 1;
+		bed.setArea(area + 0.5);
+		bed.setArea(area);
+		bed.move(steps[k] * x);
+	}
+	return bed;
+}
+
+TEST(ShearLayers, EnergyAndForceAreThoseOfTheSprings)
+{
+	const ShearLayers bed = fourLayers();
+	EXPECT_EQ(bed.count(), 4);
+	EXPECT_NEAR(bed.area(), 10, 1e-14);
+	EXPECT_NEAR((bed.sum() - (0.7 + 2 * 0.6 + 3 * 0.4 + 4 * 0.1) * x).norm(), 0, 1e-14);
+	EXPECT_NEAR(bed.energy(), (0.49 + 2 * 0.36 + 3 * 0.16 + 4 * 0.01) / 2, 1e-14);
+	EXPECT_EQ(ShearLayers().energy(), 0);
+}
+
+TEST(ShearLayers, TheSameAreaChangesNothing)
+{
+	ShearLayers bed  = fourLayers();
+	const Real  area = bed.area(), energy = bed.energy();
+	for (int step = 0; step < 5; ++step)
+		bed.setArea(area);
+	EXPECT_EQ(bed.count(), 4);
+	EXPECT_EQ(bed.energy(), energy);
+}
+
+// Without room for one more the two are united whose union loses the least, ½ a₁a₂/(a₁ + a₂) |e₁ − e₂|²; the force stays.
+TEST(ShearLayers, ThoseThatDifferLeastAreUnited)
+{
+	ShearLayers   bed    = fourLayers();
+	const Real    energy = bed.energy();
+	const Vector3 sum    = bed.sum();
+	bed.setArea(12);
+	EXPECT_EQ(bed.count(), tolerance::shearLayers);
+	EXPECT_NEAR((bed.sum() - sum).norm(), 0, 1e-14);
+	EXPECT_NEAR(energy - bed.energy(), 0.01 / 3, 1e-14); // the first two: areas 1 and 2, displacements 0.7 and 0.6
+	EXPECT_NEAR(bed.area(0), 3, 1e-14);
+	EXPECT_NEAR(bed.displacement(0)[0], (0.7 + 2 * 0.6) / 3, 1e-14);
+	EXPECT_NEAR(bed.displacement(1)[0], 0.4, 1e-14);
+	EXPECT_NEAR(bed.displacement(2)[0], 0.1, 1e-14);
+	EXPECT_EQ(bed.displacement(3), Vector3::Zero());
+}
+
 // Force is held constant while the area goes up and down: the displacement ends, where a bed with one displacement creeps on.
 TEST(ShearLayers, LoadCyclesDoNotCreep)
 {

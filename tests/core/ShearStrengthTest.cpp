@@ -79,6 +79,35 @@ TEST(ContactOutline, MomentsOfARectangleFarFromThePoint)
 	EXPECT_EQ(momentsOf(corners.data(), 2).area, 0);
 }
 
+TEST(ContactOutline, MomentsOfATurnedRectangleAndATriangle)
+{
+	Corners turned = rectangleOutline(3, 2);
+	for (Vector2& corner : turned)
+		corner = Eigen::Rotation2D<Real>(0.4) * corner;
+	const OutlineMoments moments = momentsOf(turned.data(), 4);
+	const Real           mean = (27 * 2 + 8 * 3) / 24., half = (27 * 2 - 8 * 3) / 24.;
+	EXPECT_NEAR(moments.second[0], mean + half * std::cos(0.8), 1e-14);
+	EXPECT_NEAR(moments.second[1], half * std::sin(0.8), 1e-14);
+	EXPECT_NEAR(moments.second[2], mean - half * std::cos(0.8), 1e-14);
+	const Corners triangle { { 1, 1 }, { 4, 1 }, { 1, 3 } };
+	const auto    of = momentsOf(triangle.data(), 3);
+	EXPECT_NEAR(of.area, 3, 1e-15);
+	EXPECT_NEAR((of.centroid - Vector2(2, 5 / 3.)).norm(), 0, 1e-15);
+	EXPECT_NEAR(of.second[0], 27 * 2 / 36., 1e-14);
+	EXPECT_NEAR(of.second[1], -9 * 4 / 72., 1e-14);
+	EXPECT_NEAR(of.second[2], 3 * 8 / 36., 1e-14);
+}
+
+TEST(ContactOutline, OfALineOrAPointHasNoMoments)
+{
+	for (const Corners& corners : { Corners { { 1, 2 }, { 2, 4 }, { 4, 8 } }, Corners { { 1, 2 }, { 1, 2 }, { 1, 2 }, { 1, 2 } } }) {
+		const OutlineMoments moments = momentsOf(corners.data(), int(corners.size()));
+		EXPECT_EQ(moments.area, 0);
+		EXPECT_EQ(moments.centroid, Vector2::Zero());
+		EXPECT_EQ(moments.gyrationSquared(), 0);
+	}
+}
+
 // Mean distance from the centre: disc 2 R/3, square 0.382598 a, equilateral triangle by its closed form.
 TEST(ShearStrength, MeanRadiusOfKnownShapes)
 {
@@ -91,6 +120,84 @@ TEST(ShearStrength, MeanRadiusOfKnownShapes)
 	EXPECT_NEAR(strengthOf(rectangleOutline(1, 1e-9), Vector2::Zero()).meanRadius(), 0.25, 1e-7);
 }
 
+// The bound from below: mean square of the distance over the largest. With the centre at o from a rectangle's middle the former is (a² + b²)/12 − |o|².
+TEST(ShearStrength, LeastRadiusIsTheMeanSquareOverTheLargest)
+{
+	for (const Vector2& offset : { Vector2(0, 0), Vector2(0.2, 0), Vector2(-0.1, 0.05) }) {
+		const Corners       corners = rectangleOutline(3, 1);
+		const ShearStrength field   = strengthOf(corners, offset, 5);
+		const Real          largest = std::hypot(1.5 + std::abs(offset[0]), 0.5 + std::abs(offset[1]));
+		EXPECT_NEAR(field.leastRadius(), (10 / 12. - offset.squaredNorm()) / largest, 1e-14);
+		EXPECT_LT(field.leastRadius(), field.meanRadius());
+	}
+}
+
+/// The part of a convex outline in which way·x ≤ place.
+Corners cutOff(const Corners& corners, const Vector2& way, Real place)
+{
+	Corners part;
+	for (std::size_t k = 0; k < corners.size(); ++k) {
+		const Vector2 &here = corners[k], &next = corners[(k + 1) % corners.size()];
+		const Real     from = place - way.dot(here), to = place - way.dot(next);
+		if (from >= 0) part.push_back(here);
+		if ((from >= 0) != (to >= 0)) part.push_back(here + from / (from - to) * (next - here));
+	}
+	return part;
+}
+
+/// A strength with this gradient over the mean, and one at the centroid.
+ShearStrength withGradient(const Corners& corners, const Vector2& gradient, Real atCentroid)
+{
+	const OutlineMoments moments = momentsOf(corners.data(), int(corners.size()));
+	const Real           total   = atCentroid * moments.area;
+	const Vector2        first(moments.second[0] * gradient[0] + moments.second[1] * gradient[1],
+	               moments.second[1] * gradient[0] + moments.second[2] * gradient[1]);
+	return { corners.data(), int(corners.size()), moments, total, Vector2(moments.centroid + first / total) };
+}
+
+// An outline cut in two has the resistance of both parts together, whatever its shape and wherever the centre of rotation is: inside, on the rim, far away.
+TEST(ShearStrength, PartsOfAnOutlineAddUp)
+{
+	std::mt19937_64                        random(6);
+	std::uniform_real_distribution<double> uniform(-1, 1);
+	int                                    cut = 0;
+	for (int trial = 0; trial < 2000; ++trial) {
+		SCOPED_TRACE(trial);
+		Corners    corners = randomOutline(random, std::size_t(3 + trial % 5));
+		const Real flat    = trial % 4 ? Real(1) : std::pow(10, 2 * uniform(random) - 2);
+		for (Vector2& corner : corners)
+			corner[1] *= flat;
+		const OutlineMoments moments = momentsOf(corners.data(), int(corners.size()));
+		if (!(moments.area > 0.1 * flat)) continue;
+		Vector2 gradient(uniform(random), uniform(random) / flat);
+		Real    most = 0;
+		for (const Vector2& corner : corners)
+			most = std::max(most, std::abs(gradient.dot(corner - moments.centroid)));
+		gradient *= 0.9 / most;
+		const auto at    = [&](const Vector2& x) { return 1 + gradient.dot(x - moments.centroid); };
+		const auto whole = withGradient(corners, gradient, 1);
+		// about a pole near the outline, or at up to a million times its distance
+		const Real    far  = std::pow(10, trial % 3 ? uniform(random) : 3 + 3 * uniform(random));
+		const Vector2 pole = moments.centroid + far * Vector2(uniform(random), (trial % 2 ? 1 : flat) * uniform(random));
+		const Vector2 way(uniform(random), uniform(random) / flat);
+		const Real    place = way.dot(moments.centroid) + 0.1 * uniform(random);
+		const auto    about = [&](const ShearStrength& strength) {
+                        const Vector2 slip = left(strength.centre() - pole);
+                        const Vector3 f    = strength.resistance(Vector3(slip[0], slip[1], 1));
+                        return Vector3(f[0], f[1], f[2] + cross(strength.centre() - whole.centre(), f.head<2>()));
+		};
+		Vector3 sum = Vector3::Zero();
+		for (const int side : { 1, -1 }) {
+			const Corners        part = cutOff(corners, side * way, side * place);
+			const OutlineMoments of   = momentsOf(part.data(), int(part.size()));
+			if (of.area > 0) sum += about(withGradient(part, gradient, at(of.centroid)));
+			cut += of.area > 0.01 * moments.area && of.area < 0.99 * moments.area;
+		}
+		EXPECT_LT((sum - about(whole)).norm(), 1e-11 * whole.total());
+	}
+	EXPECT_GT(cut, 2000);
+}
+
 // Pole inside, on the rim, outside; pressure even and towards one side.
 TEST(ShearStrength, ResistanceIsThatOfManySmallSquares)
 {
@@ -101,6 +208,11 @@ TEST(ShearStrength, ResistanceIsThatOfManySmallSquares)
 			const Vector3 exact = strengthOf(corners, offset).resistance(slip), squares = bySquares(3, 1, offset, slip);
 			EXPECT_LT((exact - squares).norm(), 1e-5) << offset.transpose() << " / " << slip.transpose();
 		}
+	// a square has no long axis
+	const Corners square = rectangleOutline(2, 2);
+	const Vector2 offset(0.1, 0.2);
+	const Vector3 slip(0.3, 0.1, 1);
+	EXPECT_LT((strengthOf(square, offset).resistance(slip) - bySquares(2, 2, offset, slip)).norm(), 1e-5);
 }
 
 TEST(ShearStrength, SlopeIsTheDerivativeAndPowerIsTheWork)
@@ -110,8 +222,8 @@ TEST(ShearStrength, SlopeIsTheDerivativeAndPowerIsTheWork)
 	for (int trial = 0; trial < 300; ++trial) {
 		const Corners       corners = randomOutline(random);
 		const ShearStrength field   = strengthOf(corners, 0.2 * Vector2(uniform(random), uniform(random)), 7);
-		const Real          size    = trial % 3 == 0 ? 1 : std::pow(10, uniform(random));
-		const Real          turn    = uniform(random);
+		const Real          size    = trial % 3 == 0 ? 1 : std::pow(10, trial % 3 == 1 ? uniform(random) : 3 + uniform(random));
+                const Real turn = uniform(random);
 		const Vector3       slip(size * uniform(random), size * uniform(random), turn < 0 ? turn - 0.5 : turn + 0.5);
 		Matrix3             slope;
 		const Vector3       f = field.resistance(slip, &slope);

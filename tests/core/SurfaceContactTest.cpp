@@ -279,6 +279,75 @@ TEST(SurfaceContact, PiecesHaveTheContactOfTheSolid)
 	expectPiecesToHaveTheContactOfTheSolid<2>();
 }
 
+/// The same for pieces that others cover on two sides, or three: a slab in six pieces (2-D: three), whose seams pass through the contact.
+template <int D> void expectManyPiecesToHaveTheContactOfTheSolid()
+{
+	std::mt19937_64                      random(98 + D);
+	const Shapes                         shapes = randomShapes(21, random, D, 0);
+	std::uniform_real_distribution<Real> some(0, 1);
+	int                                  parted = 0;
+	for (int trial = 0; trial < 60; ++trial) {
+		SCOPED_TRACE(trial);
+		if (trial % 3 == 2) continue; // flat ones, whose overlaps are so thin that rounding shows
+		Pair pair;
+		pair.shape[0]    = CutSlab<D>::slab(4, 1);
+		pair.shape[1]    = shapes[std::size_t(trial) % shapes.size()];
+		pair.rotation[1] = randomRotation(random, D);
+		Real lowest      = 0;
+		for (const Vector3& vertex : pair.shape[1]->polyhedron().vertices)
+			lowest = std::min(lowest, Vector3(pair.rotation[1] * vertex)[1]);
+		const Real overlap           = pair.shape[1]->inscribedRadius() * decades(random, -3, -2);
+		pair.centre2                 = Vector3(some(random) / 4, 1 - lowest - overlap, 0);
+		const ContactResult touching = query(pair, with(ContactModel::Foundation));
+		if (!touching.inContact) continue;
+		const Vector3 at = touching.point;
+		const Real x[] = { -4, at[0] - overlap * some(random) / 3, at[0] + overlap * some(random) / 3, 4 }, z[] = { -4, at[2], 4 };
+		const ContactLoad whole(touching, ContactModel::Foundation);
+		Real              share = 0, energy = 0;
+		Vector3           force = Vector3::Zero(), moment = Vector3::Zero();
+		for (int column = 0; column < 3; ++column)
+			for (int row = 0; row < D - 1; ++row) {
+				const Real    low[] = { x[column], z[row] }, top[] = { x[column + 1], D == 2 ? Real(4) : z[row + 1] };
+				const Real    wide = (top[0] - low[0]) / 2, deep = (top[1] - low[1]) / 2;
+				const Vector3 centre((top[0] + low[0]) / 2, 0, (top[1] + low[1]) / 2);
+				Pair          piece = pair;
+				piece.shape[0]      = ConvexShape::shared(D == 2 ? rectangle(wide, 1) : cuboid(wide, 1, deep), 0);
+				piece.centre2 -= centre;
+				InternalPlanes covered;
+				for (int i = 0; i < piece.shape[0]->planeCount(); ++i) {
+					const Vector3& n = piece.shape[0]->planes().normals[std::size_t(i)];
+					for (int k = 0; k < D - 1; ++k) {
+						const Real beyond = n[2 * k] > Real(0.9) ? 4 - top[k]
+						        : n[2 * k] < Real(-0.9)          ? low[k] + 4
+						                                         : 0;
+						if (beyond > 0) covered.add(0, i, beyond);
+					}
+				}
+				ContactSettings settings   = with(ContactModel::Foundation);
+				settings.internal          = &covered;
+				const ContactResult result = query(piece, settings);
+				if (!result.inContact) continue;
+				const Load on(result, ContactModel::Foundation);
+				share += result.share;
+				force += on.force;
+				moment += on.moment + centre.cross(on.force);
+				energy += on.energy;
+				parted += covered.count[0] > 1 && result.share > Real(0.01);
+			}
+		EXPECT_NEAR(share, 1, 1e-9);
+		EXPECT_LE((force - whole.force).norm(), 1e-9 * whole.force.norm());
+		EXPECT_LE((moment - whole.moment).norm(), 1e-9 * whole.force.norm());
+		EXPECT_NEAR(energy / whole.energy, 1, 1e-9);
+	}
+	EXPECT_GT(parted, 20);
+}
+
+TEST(SurfaceContact, PiecesCoveredOnSeveralSidesHaveTheContactOfTheSolid)
+{
+	expectManyPiecesToHaveTheContactOfTheSolid<3>();
+	expectManyPiecesToHaveTheContactOfTheSolid<2>();
+}
+
 TEST(SurfaceContact, ExchangesWithTheBodiesToTheBit)
 {
 	std::mt19937_64 random(78);
