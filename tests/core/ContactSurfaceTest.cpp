@@ -248,7 +248,7 @@ TEST(ContactSurface, KeepsItsDigitsAtAllSizes)
 	expectExact<3>(
 	        [&](int t, auto& r) {
 		        const Real ratio = decades(r, -3, 3);
-		        return scaled(regularPair(faces[t % 5], faces[t / 5 % 5], decades(r, -6, -1), r, ratio), decades(r, -9, 4));
+		        return scaled(regularPair(faces[t % 5], faces[t / 5 % 5], decades(r, -9, -1), r, ratio), decades(r, -9, 4));
 	        },
 	        100, 100, 95);
 }
@@ -478,6 +478,16 @@ TEST(ContactSurface, BuffersAreWithinTheirMemoryAndApart)
 		        { { set.plane, 4 * Set::mostPlanes }, { set.point, 4 * Set::mostVertices }, { set.split, total + padWidth },
 		                { set.slack, total + padWidth }, { set.piece, Set::pieceRows * Set::mostPieces } });
 		EXPECT_GE(Set::indicesNeeded(total), total + 1);
+		// the copy of the tight planes is on none of them
+		FeasibleBuffers<Real> full(total, numbers.data(), indices.data());
+		full.planes = Set::mostPlanes;
+		for (int k = 0; k < 4 * Set::mostPlanes; ++k)
+			full.plane[k] = k;
+		const PairPlanes<Real, 3> copy = full.tightPlanes();
+		for (int k = 0; k < Set::mostPlanes; ++k) {
+			EXPECT_EQ(Vector3(copy.normal[0][k], copy.normal[1][k], copy.normal[2][k]), Vector3(4 * k, 4 * k + 1, 4 * k + 2));
+			EXPECT_EQ(copy.offset[k], 4 * k + 3);
+		}
 	}
 }
 
@@ -490,11 +500,15 @@ TEST(ContactSurface, MorePiecesThanThereIsRoomForAreToldOf)
 	std::vector<Real>        numbers(std::size_t(SurfaceBuffers<Real, 3>::numbersNeeded(planes.total)));
 	std::vector<int>         indices(std::size_t(SurfaceBuffers<Real, 3>::indicesNeeded(planes.total)));
 	SurfaceBuffers<Real, 3>  buffers(planes.total, numbers.data(), indices.data());
-	for (const int room : { 3, 12, buffers.pieces }) {
+	int                      facing[2]; // the planes between the bodies
+	for (int body = 0; body < 2; ++body)
+		for (int k = planes.begin(body); k < planes.end(body); ++k)
+			if (planes.normal[2][k] * (1 - 2 * body) > Real(0.9)) facing[body] = k;
+	for (const int room : { 1, 3, 12, buffers.pieces }) {
 		buffers.pieces = room;
 		SurfaceSums<Real, 3> sums;
 		const auto           status
-		        = contactSurface<Real, 3, 1>(planes, nullptr, 0, pair.size(), own.deepest, SurfaceParts::Cells, buffers, sums);
+		        = contactSurface<Real, 3, 1>(planes, facing, 2, pair.size(), own.deepest, SurfaceParts::Cells, buffers, sums);
 		EXPECT_EQ(status, room < 20 ? SurfaceStatus::NoRoom : SurfaceStatus::Found);
 	}
 }
@@ -539,6 +553,31 @@ TEST(ContactSurface, PiecesOfAFloorAddUp)
 		EXPECT_LE((first.force() + second.force() - one.force()).norm() / one.force().norm(), h) << beyond;
 		EXPECT_NEAR((first.sums.volume + second.sums.volume) / one.sums.volume, 1, h) << beyond;
 	}
+}
+
+/// Deep overlaps, whose planes are nearest far from the optimum.
+TEST(ContactSurface, OfDeepOverlapsIsThatOfTheNearPlanes)
+{
+	std::mt19937_64 random(31);
+	const Shapes    shapes = randomShapes(60, random, 3, -2);
+	int             fewer  = 0;
+	for (int trial = 0; trial < 3000; ++trial) {
+		SCOPED_TRACE(trial);
+		Pair pair;
+		for (int body = 0; body < 2; ++body) {
+			pair.shape[body]    = shapes[random() % shapes.size()];
+			pair.rotation[body] = randomRotation(random);
+		}
+		pair.centre2 = uniform(random, 0, 2) * pair.inscribedRadius() * randomDirection(random);
+		if (!(infeasibility(pair) < Real(-1e-6) * pair.size())) continue;
+		const SurfaceOfPair<3> own(pair), near(pair, SurfaceParts::Cells, SurfaceOfPair<3>::NearPlanesAlone);
+		const Real             rounding = 256 * tolerance::rounding * pair.reach() / own.deepest;
+		EXPECT_EQ(near.status, own.status);
+		EXPECT_NEAR(near.sums.volume / own.sums.volume, 1, rounding);
+		EXPECT_LE((near.force() - own.force()).norm(), rounding * own.sums.volume / own.deepest);
+		fewer += near.planes < own.planes;
+	}
+	EXPECT_GT(fewer, 100);
 }
 
 TEST(ContactSurface, OfManyPlanesIsThatOfTheNearOnes)

@@ -347,6 +347,30 @@ TEST(ShearReturn, IsTheNearestPointOfTheLimitSurface)
 	EXPECT_GT(stuck, 300);
 }
 
+// The resistance to a slip is the point of the limit surface with that normal: a load that is less by a part of a million holds, one that is more slips.
+TEST(ShearReturn, HoldsUpToTheLimitSurfaceAndNotBeyond)
+{
+	std::mt19937_64                        random(9);
+	std::uniform_real_distribution<double> uniform(-1, 1);
+	for (int trial = 0; trial < 3000; ++trial) {
+		SCOPED_TRACE(trial);
+		const Corners        corners = randomOutline(random, std::size_t(3 + trial % 5));
+		const OutlineMoments moments = momentsOf(corners.data(), int(corners.size()));
+		if (!(moments.area > 0.1)) continue;
+		const Vector2       offset = 0.2 * std::sqrt(moments.area) * Vector2(uniform(random), uniform(random));
+		const ShearStrength field(corners.data(), int(corners.size()), moments, 2, Vector2(moments.centroid + offset));
+		const Matrix3       stiffness = bedStiffness(50, moments.gyrationSquared(), moments.centroid - field.centre());
+		const Real          size      = std::pow(10, 2 * uniform(random));
+		const Vector3       point     = field.resistance(Vector3(size * uniform(random), size * uniform(random), uniform(random)));
+		const Vector3 likely = trial % 2 ? Vector3(uniform(random), uniform(random), uniform(random)) : Vector3(Vector3::Zero());
+		Vector3       within = (1 - 1e-6) * point, beyond = (1 + 1e-6) * point;
+		EXPECT_EQ(returnToStrength(field, stiffness, within, likely), Vector3::Zero());
+		EXPECT_EQ(within, (1 - 1e-6) * point);
+		EXPECT_NE(returnToStrength(field, stiffness, beyond, likely), Vector3::Zero());
+		EXPECT_LT((beyond - point).norm(), 1e-4 * point.norm());
+	}
+}
+
 // Loads that differ by rounding leave forces that differ by rounding, also where the centre of rotation lies at a corner: the iteration does not end
 // where the work that it compares is no longer known.
 TEST(ShearReturn, LoadsThatDifferByRoundingLeaveTheSame)
