@@ -71,7 +71,7 @@ def sourcesKey():
 
 
 def head(arguments):
-	git = ['git', '-c', f'safe.directory={project}', '-C', str(project), 'describe', '--always', '--abbrev=40', '--dirty']
+	git = ['git', '-c', f'safe.directory={project}', '-C', str(project), 'describe', '--always', '--exclude=*', '--abbrev=40', '--dirty']
 	try:
 		revision = subprocess.run(git, capture_output=True, text=True).stdout.strip()
 	except OSError:
