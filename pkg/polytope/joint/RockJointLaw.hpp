@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/PolytopeGeom.hpp"
 #include "host/CheckedAttributes.hpp"
+#include "joint/RockJointPhys.hpp"
 #include "joint/StiffnessSums.hpp"
 
 #include <core/Dispatching.hpp>
@@ -13,9 +15,6 @@
 ///
 /// Signs as in RockJointPhys.hpp; relative velocities are body 2's relative to body 1.
 namespace yade {
-
-class PolytopeGeom;
-class RockJointPhys;
 
 class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb : public LawFunctor {
 public:

@@ -85,19 +85,39 @@ def testEachFolderOfTheCoreIncludesToTheLeftOnly():
 				assert folders.index(folder) <= level, f'{path.parent.name}/{path.name} includes {name}'
 
 
-@pytest.mark.parametrize('folder', ['src', 'pkg/polytope'])
-def testNoHeaderIncludesItselfThroughOthers(folder):
+def reachedFrom(folder):
+	"""For each header the headers of the folder that it includes, through others, too."""
 	place = {path.name: path for path in files(project / folder, '.hpp')}
 	within = {
 		path: {place[name] for name in map(lambda name: pathlib.Path(name).name, includes(path)) if name in place}
 		for path in place.values()
 	}
+	reachedBy = {}
 	for path in within:
 		reached, ahead = set(), set(within[path])
 		while ahead:
 			reached |= ahead
 			ahead = set().union(*(within[one] for one in ahead)) - reached
+		reachedBy[path] = reached
+	return reachedBy
+
+
+@pytest.mark.parametrize('folder', ['src', 'pkg/polytope'])
+def testNoHeaderIncludesItselfThroughOthers(folder):
+	for path, reached in reachedFrom(folder).items():
 		assert path not in reached, f'{path.name} includes itself'
+
+
+def testAFunctorKnowsTheClassesThatItIsOf():
+	"""YADE's macro casts to them; where all files are compiled as one a missing header is not noticed."""
+	made = 0
+	for path, reached in reachedFrom('pkg/polytope').items():
+		for names in re.findall(r'FUNCTOR[12]D\(([^)]*)\)', path.read_text()):
+			for name in names.replace(' ', '').split(','):
+				ownHeader = [header for header in files(project / 'pkg/polytope', '.hpp') if header.stem == name]
+				made += len(ownHeader)
+				assert path in ownHeader or set(ownHeader) <= reached, f'{path.name} does not include {name}.hpp'
+	assert made > 5
 
 
 rooms = 'host', 'material', 'shape', 'pairs', 'bond', 'bolt', 'contact', 'joint', 'bonding', 'step', 'loads', 'output', 'python'
