@@ -31,9 +31,12 @@ def pairs(folder):
 
 def verdict(folder):
 	defects = {name: count for name, count in Search(folder).defects.items() if count}
-	if defects:
-		return '**' + ', '.join(f'{name}: {count}' for name, count in defects.items()) + '**'
-	return 'no contact missed, none invented; volume, force and moment right to rounding'
+	touch = '' if {'miss', 'false contact'} & set(defects) else 'no contact missed, none invented; '
+	return touch + (
+		'**' + ', '.join(f'{name}: {count}' for name, count in defects.items()) + '**'
+		if defects
+		else 'volume, force and moment right to rounding'
+	)
 
 
 def summary(folder):
