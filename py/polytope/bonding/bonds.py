@@ -93,12 +93,12 @@ def madeBonds():
 
 
 def intactBonds():
-	"""Those that have not failed, also of bodies that have been erased since the last step."""
+	"""Bonds that have not failed, also of bodies that have been erased since the last step."""
 	return [bond for bond in madeBonds() if bond.intact]
 
 
 def presentBonds():
-	"""Those that have not failed and whose bodies are in the scene."""
+	"""Bonds that have not failed and whose bodies are in the scene."""
 	return [bond for bond in intactBonds() if O.bodies[bond.id1] is not None and O.bodies[bond.id2] is not None]
 
 

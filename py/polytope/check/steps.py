@@ -137,7 +137,7 @@ def _passes(body):
 
 
 def _turns(scene, body, driven):
-	"""Or may turn, pushed by others; a member turns with its clump."""
+	"""Whether it turns, or may turn, pushed by others; a member turns with its clump."""
 	whole = scene.O.bodies[moverOf(body.id)]
 	return whole.id in driven or body.id in driven or float(whole.state.angVel.norm()) > 0 or (scene.moves(body) and not _held(whole))
 

@@ -11,7 +11,7 @@ import scipy  # loads its packages at their first use: half a second
 __all__ = ['checkedName', 'encode']
 
 colorsOfGif = 256
-"""As many as the format has."""
+"""Colours of a film in GIF: as many as the format has."""
 forPalette = 8
 """Frames of a film that its colours are chosen from: one palette for all, so that what is at rest keeps its colour."""
 

@@ -64,7 +64,8 @@ def _links():
 
 
 def unsupported(moving):
-	"""Those of these bodies that neither a chain of contacts, bonds and bolts connects to a fixed one or to one that is at rest, nor anything is below, other than such as fall themselves. Id → the group that falls as one.
+	"""Which of these bodies hang in the air: no chain of contacts, bonds and bolts connects them to a fixed one or to one that is at rest, and nothing
+	is below them, other than bodies that fall themselves. Id → the group that falls as one.
 
 	:param moving: ids of the bodies that are not at rest, of clumps their own
 	"""

@@ -46,7 +46,7 @@ class Restless(NamedTuple):
 
 	id: int
 	unbalanced: float
-	"""Its mean force since the last doubling of steps [-]."""
+	"""Mean unbalanced force since the last doubling of steps [-]."""
 	kind: str
 	"""'falls', 'slides', 'topples', 'trembles', or 'moves', which is none of these."""
 	why: str

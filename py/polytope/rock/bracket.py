@@ -44,7 +44,7 @@ class Bracket:
 		self.tolerance, self.most = tolerance, most
 		self.stable = 1.0
 		self._failures = []
-		"""Of trials that failed, those at larger strengths first."""
+		"""Trials that failed, those at larger strengths first."""
 		self._expected = None
 		"""Whether the trial that was asked for last should stand, by the estimate; None: that was no estimate."""
 		self._wrong = 0

@@ -37,7 +37,7 @@ def areaVector(corners):
 
 
 def centroidOf(corners):
-	"""Of a convex polygon [m], by the triangles about its first corner."""
+	"""Centroid [m] of a convex polygon of these corners (n, 3), by the triangles about its first corner."""
 	arms = corners[1:] - corners[0]
 	return corners[0] + np.average((arms[:-1] + arms[1:]) / 3, axis=0, weights=np.linalg.norm(_triangles(corners), axis=1))
 

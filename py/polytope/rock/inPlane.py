@@ -68,7 +68,7 @@ def asSegment(cut):
 
 
 def flatSet(given):
-	"""The same set in the plane."""
+	"""A joint set as it cuts in the plane."""
 	values = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
 	if given.through is not None:
 		values['through'] = (*given.through[:2], 0.0)

@@ -158,7 +158,7 @@ class JointSet:
 		return cuts
 
 	def _asCut(self, cut):
-		"""As it bounds blocks."""
+		"""The cut of a joint in the form in which it bounds blocks; a set in the plane has another."""
 		return cut
 
 	def _directions(self, normals, random):

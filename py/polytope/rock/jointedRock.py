@@ -112,7 +112,7 @@ class JointedRock:
 		return jointsOfFaces(self, body)
 
 	def setsOfFaces(self, body):
-		"""Likewise which of the *jointSets* that joint comes from."""
+		"""For each plane in the normals of the body's shape the number of the set in *jointSets* whose joint made it; −1 where *jointsOfFaces* has −1."""
 		return setsOf(self, jointsOfFaces(self, body))
 
 	def contactJoints(self):
@@ -123,7 +123,7 @@ class JointedRock:
 		return contactJoints(self)
 
 	def contactSets(self):
-		"""Likewise which of the *jointSets* that joint comes from."""
+		"""For each row of ``polytope.arrays().contacts`` the number of the set in *jointSets* whose joint the contact is on; −1: none."""
 		return setsOf(self, contactJoints(self))
 
 	def writeFaces(self, path):
@@ -316,7 +316,8 @@ def _rock(made, bodyOf, cuts, centre, entries):
 
 
 def _expectedBlocks(volume, jointSets):
-	"""As many as there are points in which three joints meet, within the region, lines on its surface in which two do, and so on."""
+	"""Number of blocks: as many as there are points in which three joints meet within the region, lines on its surface in which two
+	do, and so on."""
 	length, scaled = volume ** (1 / 3), [joints.normal * joints.intensity for joints in jointSets]
 	planes = sum(np.linalg.norm(a) for a in scaled)
 	lines = sum(np.linalg.norm(np.cross(a, b)) for a, b in itertools.combinations(scaled, 2))

@@ -81,7 +81,7 @@ class Motion:
 		return any(not self._isStopped(k) for k in np.flatnonzero(speeding))
 
 	def _speeding(self, spans):
-		"""Of each body whether it moved faster in each of so many equal parts of the trial than in the one before."""
+		"""For each body whether it moved faster in each of so many equal parts of the trial than in the one before."""
 		last = len(self.parts) - 1
 		ways = np.diff([self.parts[last * k // spans] for k in range(spans + 1)], axis=0)
 		return (ways[1:] > faster * np.maximum(ways[:-1], 0)).all(axis=0)

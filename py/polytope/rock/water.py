@@ -23,7 +23,7 @@ class Face(NamedTuple):
 	"""A face of a body as it is now: what *faces* of *polytope.water* is asked for."""
 
 	body: int
-	"""Its id."""
+	"""Id of the body."""
 	plane: int
 	"""Index of its half-space in *shape.normals*; for a block of *polytope.jointedRock* also that in its list *faces*."""
 	normal: np.ndarray

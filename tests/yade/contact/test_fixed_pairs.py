@@ -39,7 +39,7 @@ def testPiecesOfTheGroundAreNotAskedForEachOther():
 
 
 def testFacetsOfAMeshAreNotAskedEither():
-	"""Also while they turn, as a drum does."""
+	"""They are not asked while they turn, either, as a drum does."""
 	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5))
 	corners = [[Vector3(i, j, 0.2 * (i + j) % 0.5) for j in range(6)] for i in range(6)]
 	mesh = [

@@ -159,7 +159,7 @@ def limitOfKey(faces, across):
 	'faces, pressed, across', [(4, (0, 2), 0), (4, (0, 2), 0.7), (3, (0, 1, 2), 0), (4, (0, 1, 2, 3), 0), (6, range(6), 0)]
 )
 def testAKeyOfSeveralFacesFallsWhereItsSpringsSlip(faces, pressed, across):
-	"""Of two faces, three, four and six; *across*: a load along two faces, over that down."""
+	"""Keys with two faces, three, four and six; *across*: a load along two faces, over that down."""
 	least = limitOfKey(len(pressed), across)
 	assert key(faces, pressed, 0.99 * least, across)
 	assert not key(faces, pressed, 1.01 * least, across)

@@ -433,7 +433,7 @@ def testASampleWhoseWallsWereReplacedIsToldOf():
 
 
 def testEnginesThatHaveLostTheirIntegratorAreToldOf():
-	"""Also where the engine that moves the walls is there: it stepped 200 000 times."""
+	"""They are told of also where the engine that moves the walls is there: it stepped 200 000 times."""
 	sample = packed()
 	polytope.triaxial(sample, stress=1e5)
 	O.engines = [engine for engine in O.engines if not isinstance(engine, NewtonIntegrator)]

@@ -111,7 +111,7 @@ def testWhatTheStudiesFoundIsWrittenWithWhatIsMissed(root, tmp_path):
 
 
 def testErrorsOverFlushPiecesAreThoseOfTheResults(root):
-	"""Of one measure, with both contacts and both rules; new data are found, and a limit that is missed is bold."""
+	"""The errors of one measure, with both contacts and both rules; new data are found, and a limit that is missed is bold."""
 	data = root / 'docs/results/accuracy.json'
 	content = json.loads(data.read_text())
 	(found,) = (script for script in content['scripts'] if script['name'] == 'surfaces')

@@ -314,7 +314,7 @@ answer([rate, carried, swing, float(O.forces.f(1)[2]) / (9.81 * float(O.bodies[0
 
 
 def testARodOnARidgeAndInAValley(rods):  # noqa: F811
-	"""Of facets, and of wedges: across a ridge it has one spring for all pieces that meet there; in a valley each side has one of its own, W / (2 cos 45°)."""
+	"""Ridge and valley are made of facets, and of wedges: across a ridge it has one spring for all pieces that meet there; in a valley each side has one of its own, W / (2 cos 45°)."""
 	script = (
 		startOfRods
 		+ floors

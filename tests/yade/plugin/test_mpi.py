@@ -150,7 +150,7 @@ def testDecompositionOfYadeGivesFixedBodiesToRankZero(found):
 
 
 def testRecordersWriteTheWholeSceneOnce(found):
-	"""And permanent forces act; a scene that rank 0 has changed is handed out anew."""
+	"""Permanent forces act, too; a scene that rank 0 has changed is handed out anew."""
 	one, several = found('recorded', 1), found('recorded', 3)
 	assert same(one, several)
 	assert max(farthest(one['bodies'][k][:3], found('heap', 1)['bodies'][k][:3]) for k in one['bodies']) > 1e-6
@@ -259,7 +259,7 @@ def testBodiesThatChangeRanksInARunKeepTheirContacts(found, name, ranks, least):
 
 
 def testBondsBetweenRanksActAndFailAsOnOne(found):
-	"""Also those with a fixed body, which is rank 0's; the joint that follows the bond of two ranks is on both."""
+	"""So do bonds with a fixed body, which is rank 0's; the joint that follows the bond of two ranks is on both."""
 	one, several = found('bonded', 1), found('bonded', 3)
 	for bodies in ('halfWay', 'bodies'):
 		assert max(farthest(one[bodies][k][:7], several[bodies][k][:7]) for k in one[bodies]) < agreement * 0.4
@@ -276,7 +276,7 @@ def testBondsBetweenRanksActAndFailAsOnOne(found):
 
 
 def testPairsAreSearchedForOnlyWhenABodyHasLeftItsBox(found):
-	"""Also where rank 0 has no body that could."""
+	"""This holds also where rank 0 has no body that could leave its box."""
 	for counts in found('searched', 3).values():
 		assert len(counts) == 3 and all(before == after > 0 for before, after in counts), counts
 
@@ -329,7 +329,7 @@ def testARankThatFailsEndsTheRun(tmp_path):
 
 
 def testChangesOnRankZeroBetweenRunsAreHandedOut(found):
-	"""And a check of the merged scene finds nothing that would not be there on one process."""
+	"""A check of the merged scene finds nothing that would not be there on one process."""
 	one, several = found('edited', 1), found('edited', 3)
 	assert one['bodies'].keys() == several['bodies'].keys() and len(one['bodies']) == 24
 	assert max(farthest(one['bodies'][k][:7], several['bodies'][k][:7]) for k in one['bodies']) < agreement * size

@@ -158,7 +158,7 @@ answer([found(facet, contacts), found(facet, [*contacts, Ig2_Facet_Rod_PolytopeG
 
 @pytest.mark.parametrize('value', ['nan', 'inf', '-0.1'])
 def testARadiusThatIsNoneIsToldAndCounted(rods, value):
-	"""Of a family that is derived from no class of ours: check names the body, and the pair is a failure instead of a contact, also where the box holds it."""
+	"""The rod's family is derived from no class of ours: check names the body, and the pair is a failure instead of a contact, also where the box holds it."""
 	script = (
 		startOfRods
 		+ """

@@ -79,7 +79,7 @@ def testTheTrialsToComeAreCounted():
 @pytest.mark.parametrize('jump', [1.02, 1.1, 1.4])
 @pytest.mark.parametrize('limit', [0.62, 0.8245, 1.1, 1.7321, 3.3])
 def testATrialThatFailedByItsJumpIsMadeAgainFromNearby(limit, jump):
-	"""Of a mass that fails where its strength falls at once to near the limit, by more than *jump*."""
+	"""The mass fails where its strength falls at once to near the limit, by more than *jump*."""
 	bracket, factors = Bracket(0.01, 20), [1 / 20 if limit < 1 else 1.0]
 	bracket.stable = factors[0]
 	while not bracket.isFound:

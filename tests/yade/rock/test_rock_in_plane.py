@@ -183,7 +183,7 @@ def testWhatIsNotOfThePlaneIsRefused():
 
 
 def testPointsOfTwoComponents():
-	"""The same as with three, of joints, sets and histories; in space they are refused."""
+	"""Joints, sets and histories take points of two components as they take three; in space they are refused."""
 	first = polytope.Joint(math.radians(35), left, (5, 3), radius=4), polytope.JointSet(math.radians(70), right, 4, through=(2, 1))
 	second = polytope.Joint(math.radians(35), left, (5, 3, 7), radius=4), polytope.JointSet(math.radians(70), right, 4, through=(2, 1, 7))
 	one = polytope.jointedRock(*slope, [[first[0]], first[1]])

@@ -9,7 +9,7 @@ from yade import NewtonIntegrator, O, RockJointMat, Vector3, polytope
 
 gravity, density = 9.81, 2600
 angle, height, far = radians(20), 5.0, 6.0
-"""Of the prism's faces from the vertical; of the prism, and from its middle to the ends of the rock at its sides [m]."""
+"""Angle of the prism's faces from the vertical; height of the prism, and distance from its middle to the ends of the rock at its sides [m]."""
 friction, normalStiffness, shearStiffness, stress = radians(35), 1e10, 1e9, 5e5
 """Stiffnesses in Pa/m; horizontal stress in Pa."""
 half = height * tan(angle)

@@ -46,7 +46,7 @@ def bounce(part, corrected=False):
 
 @pytest.mark.parametrize('part', [0.1, 0.05, 0.025])
 def testAChangeOfTheStepInAContactIsAnErrorOfFirstOrder(part):
-	"""Of m v a (h' − h)/2: a quarter of the step over the time 1/ω."""
+	"""The error is m v a (h' − h)/2: a quarter of the step over the time 1/ω."""
 	gained, said = bounce(part)
 	assert said == pytest.approx(part / 4, rel=part)
 	assert gained == pytest.approx(said, rel=part)

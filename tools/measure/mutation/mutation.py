@@ -37,7 +37,7 @@ shareOfPlugin = 0.2
 
 
 def chosen(count, seed, files=('',)):
-	"""This number of mutants in files whose names contain one of *files*, each place at most once."""
+	"""So many mutants, drawn from files whose names contain one of *files*, each place at most once."""
 	chance = random.Random(seed)
 	places = {True: [], False: []}
 	for folder in core:

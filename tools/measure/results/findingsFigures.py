@@ -151,7 +151,7 @@ def verdicts(name):
 
 
 def floors(folder):
-	"""Of the study of floors made of flush pieces: the largest error of each measure, for both contacts and both rules of stiffness."""
+	"""Table of the study of floors made of flush pieces: the largest error of each measure, for both contacts and both rules of stiffness."""
 	script = next((script for script in scriptsOf(folder, 'accuracy') if script['name'] == 'surfaces'), None)
 	if script is None:
 		return 'Not measured.'

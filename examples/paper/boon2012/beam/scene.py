@@ -81,7 +81,7 @@ class ThreeHingedBeam:
 	cornerRadius: float = 0.0046
 	"""Must be larger than the overlaps: a point deeper than that in a body gets no normal from it. [m]"""
 	contactModel: str = 'boon2012'
-	"""Or 'surface', 'spring', which read neither contactPoint nor solver nor corner radius nor normal weight."""
+	"""'boon2012', 'surface' or 'spring'; the last two read neither contactPoint nor solver nor corner radius nor normal weight."""
 	contactPoint: str = 'analyticCentre'
 	solver: str = 'newton'
 	density: float = 2600

@@ -78,7 +78,7 @@ class Collision:
 	"""0.02 sqrt(mass / normalStiffness) for the unit cube. [s]"""
 	contactPoint: str = 'analyticCentre'
 	contactModel: str = 'boon2012'
-	"""Or 'surface', 'foundation', 'spring', which do not read *contactPoint*."""
+	"""'boon2012', 'surface', 'foundation' or 'spring'; the last three do not read *contactPoint*."""
 
 	# what build() made
 	fixedId: int = dataclasses.field(default=-1, init=False)

@@ -115,7 +115,7 @@ class SlumpingSlope:
 	timeStep: float = 1e-4
 	contactPoint: str = 'analyticCentre'
 	contactModel: str = 'boon2012'
-	"""Or 'surface', 'foundation', 'spring', which do not read *contactPoint*."""
+	"""'boon2012', 'surface', 'foundation' or 'spring'; the last three do not read *contactPoint*."""
 
 	# what build() made
 	freeIds: list = dataclasses.field(default_factory=list, init=False)

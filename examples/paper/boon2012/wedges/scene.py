@@ -70,7 +70,7 @@ class WedgeScene:
 	rockingDamping: float = 0.0
 	"""Damping of rocking at each contact, fraction of critical: without it one contact point leaves rocking on a face to YADE's own damping."""
 	contactModel: str = 'boon2012'
-	"""Or 'surface', 'foundation', 'spring', which do not read *contactPoint*."""
+	"""'boon2012', 'surface', 'foundation' or 'spring'; the last three do not read *contactPoint*."""
 	contactPoint: str = 'analyticCentre'
 	timeStepFraction: float = 0.2
 	"""Time step over sqrt(wedge's mass / sum of its faces' normal stiffnesses)."""

@@ -35,7 +35,7 @@ class Part:
 	of: int
 	"""Id of the body."""
 	body: Body
-	"""Not in the scene yet."""
+	"""The part as a body, which is not in the scene yet."""
 	planes: np.ndarray
 	"""For each of its planes which of the former body's it lies on; −1: a cut."""
 
@@ -73,7 +73,7 @@ class ExcavatedRegion:
 		return all((points @ normals.T >= limits - margin).all(axis=0).any() for normals, limits in self.parts)
 
 	def faces(self, centre):
-		"""As joints that cut, about this point."""
+		"""The faces of its parts as joints that cut, about this point."""
 		for normals, limits in self.parts:
 			planes = np.column_stack([normals, limits - normals @ centre])
 			for k, plane in enumerate(planes):
