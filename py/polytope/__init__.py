@@ -2,15 +2,20 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
-*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a mesh as YADE's facets: *facets*; a body of an extension's class: *withShape*; a rock mass cut by joints:
-*jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; linings and beams: *lining* (*Adhesion*); a body broken along a plane: *split*; grains
-broken by their stress: *breakGrains*. One
-pair without a scene: *contact*. The usual engines: *engines*; what is wrong with a scene, and what it pays for unused: *check*; steps with their progress: *run*; at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; its factor of safety, *factorOfSafety* and *limitAnalysis*. Cost and accuracy of settings:
-*tradeoff*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
-*sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
-tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
-Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen: *picture*; a film of its run: *animate*. The classes (Polytope,
-Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
+*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces:
+*plates*, *tube*, *terrain*; a mesh as YADE's facets: *facets*; a body of an extension's class: *withShape*; a rock mass cut by joints:
+*jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi
+cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; linings and
+beams: *lining* (*Adhesion*); a body broken along a plane: *split*; grains broken by their stress: *breakGrains*. One pair without a scene:
+*contact*. The usual engines: *engines*; what is wrong with a scene, and what it pays for unused: *check*; steps with their progress: *run*;
+at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in
+joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; its
+factor of safety, *factorOfSafety* and *limitAnalysis*. Cost and accuracy of settings: *tradeoff*. Measures: *bodyStress*, *contactFabric*,
+*particleFabric*, *porosity*, *coordinationNumber*, *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*,
+*particleRose*, *forceHistogram*. Samples and loading tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of
+all bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen:
+*picture*; a film of its run: *animate*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any
+other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/host/Plugin.cpp).
 """

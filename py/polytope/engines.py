@@ -53,7 +53,8 @@ reach = 0.1
 reachOfNothing = 0.02
 """verletDist [m] in a scene without such a body."""
 firstStep = 1e-8
-"""Largest O.dt [s] before PolytopeTimeStepper, the last of the engines, has acted: that of a new scene. A step made before, with YADE's own engines, leaves 1 s or so."""
+"""Largest O.dt [s] before PolytopeTimeStepper, the last of the engines, has acted: that of a new scene. A step made before, with YADE's own
+engines, leaves 1 s or so."""
 allShapes = ('Box', 'Facet', 'Polytope', 'Sphere', 'Wall')
 gravityOnEarth = 9.81
 
@@ -63,8 +64,11 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 	"""The usual engines for the bodies that the scene has: ``O.engines = polytope.engines()``. Make the bodies first.
 
 	ForceResetter; PolytopeCollider with the bounds of all shapes; InteractionLoop with contact functors for the scene's shapes, those of
-	loaded extensions among them (not where several are made for the same pair: the warning says how to choose one), physics and laws for its materials; the bonds and bolts that there are (polytope.bond, polytope.bolt), the water (polytope.water), moving bases and quiet boundaries (baseMotion, quietBoundary), forces that fade (excavate); NewtonIntegrator; PolytopeTimeStepper, for which O.dt begins at 1e-8 s; histories and films. What is wrong with the scene is warned of, as *check* finds it.
-	Further engines are added to the list: ``O.engines = polytope.engines() + [PyRunner(…)]``.
+	loaded extensions among them (not where several are made for the same pair: the warning says how to choose one), physics and laws for
+	its materials; the bonds and bolts that there are (polytope.bond, polytope.bolt), the water (polytope.water), moving bases and quiet
+	boundaries (baseMotion, quietBoundary), forces that fade (excavate); NewtonIntegrator; PolytopeTimeStepper, for which O.dt begins at
+	1e-8 s; histories and films. What is wrong with the scene is warned of, as *check* finds it. Further engines are added to the list:
+	``O.engines = polytope.engines() + [PyRunner(…)]``.
 
 	:param Vector3 gravity: [m/s²]; default 9.81 along −z, in scenes of polygons along −y
 	:param geometry: an Ig2_Polytope_Polytope_PolytopeGeom, whose settings hold for the contacts of all pairs, or a list of all contact

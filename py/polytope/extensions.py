@@ -37,8 +37,9 @@ def load(path):
 	:param str path: of the library; its name does not matter
 	:returns: what was loaded: (path, name, classes), see *Extension*
 	:raises FileNotFoundError: if there is no such file
-	:raises ValueError: naming *path* and the reason where it does not fit: no path, a folder, a file that is cut off, built for another precision, another YADE or
-	    another version of this plug-in, no extension at all, a class or normal law whose name there is already, a class that has the index of another
+	:raises ValueError: naming *path* and the reason where it does not fit: no path, a folder, a file that is cut off, built for another
+	    precision, another YADE or another version of this plug-in, no extension at all, a class or normal law whose name there is already,
+	    a class that has the index of another
 	"""
 	if not isinstance(path, (str, os.PathLike)):
 		raise ValueError(f'path: must be the path of a library that yade_polytope_add_extension has built, got {path!r}')

@@ -27,8 +27,8 @@ def setFrictionAngle(angle):
 	"""Gives all rock joints this friction angle at once: contacts that exist, and through their materials those to come.
 
 	:param float angle: [rad], from 0 to below π/2
-	:raises ValueError: naming *frictionAngle* if out of range; *strength* if joints have a shear law of their own; naming *frictAngle* if a MatchMaker of the
-	    Ip2 functor sets another angle for new contacts
+	:raises ValueError: naming *frictionAngle* if out of range; *strength* if joints have a shear law of their own; naming *frictAngle* if a
+	    MatchMaker of the Ip2 functor sets another angle for new contacts
 	"""
 	refuseMatchMaker()
 	if any(isinstance(material, RockJointMat) and material.strength is not None for material in O.materials):

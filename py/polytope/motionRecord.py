@@ -149,7 +149,8 @@ class MotionRecord:
 		return self.torque - np.cross(np.nan_to_num(self.point - self.position), self.contactForce)
 
 	def _work(self, force, couple=0):
-		"""Work of a force on the body at the contact point, and a moment, up to time n [J]: the mean of those at both ends of a step times its motion."""
+		"""Work of a force on the body at the contact point, and a moment, up to time n [J]: the mean of those at both ends of a step times
+		its motion."""
 		torque = np.cross(np.nan_to_num(self.point - self.position), force) + couple
 		power = np.sum((force[:-1] + force[1:]) * self.velocityBefore[1:] + (torque[:-1] + torque[1:]) * self.spinBefore[1:], axis=1)
 		return np.concatenate([[0], 0.5 * self.timeStep * np.cumsum(power)])

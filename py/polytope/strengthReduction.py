@@ -7,7 +7,8 @@
 	found = StrengthReduction([body.id for body in O.bodies if body.dynamic], steps=(0.1, 0.02)).run()
 	print(found.stable, found.failed)
 
-tan φ, cohesion, tensile strength and their residual values of each joint and bond are divided by the same factor, so that joints, sets and materials of different strengths keep their proportions. Bolts (polytope.bolt) keep theirs.
+tan φ, cohesion, tensile strength and their residual values of each joint and bond are divided by the same factor, so that joints, sets and
+materials of different strengths keep their proportions. Bolts (polytope.bolt) keep theirs.
 """
 
 import dataclasses
@@ -33,7 +34,8 @@ def divideStrengths(factor, reduce=strengths):
 
 	:param float factor: above 0; 2 halves them
 	:param reduce: which: of 'friction', 'cohesion' and 'tension', residual values with the peak's
-	:raises ValueError: naming *factor* if out of range; *reduce* if there is another word in it; *frictAngle* if a MatchMaker of the Ip2 functor sets another angle for new contacts
+	:raises ValueError: naming *factor* if out of range; *reduce* if there is another word in it; *frictAngle* if a MatchMaker of the Ip2
+	    functor sets another angle for new contacts
 	"""
 	if not (factor > 0 and math.isfinite(factor)):
 		raise ValueError(f'factor: must be a number above 0, got {factor}')
@@ -102,8 +104,9 @@ class StrengthReductionResult:
 class StrengthReduction(Reduction):
 	"""Finds the factor of safety (see the head of this file). The scene must stand with its own strengths: *polytope.settle()* first.
 
-	The factor rises from 1 by the first step, each time until the bodies have come to rest again or have failed. At a failure the last stable state is restored, and the factor rises
-	from it by the next, finer step. Stages, states and what is kept are as of *FrictionReduction*.
+	The factor rises from 1 by the first step, each time until the bodies have come to rest again or have failed. At a failure the last
+	stable state is restored, and the factor rises from it by the next, finer step. Stages, states and what is kept are as of
+	*FrictionReduction*.
 
 	:param bodies: ids of the bodies that are watched
 	:param steps: of the factor, each smaller than the one before

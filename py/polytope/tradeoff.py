@@ -39,8 +39,9 @@ class CalledAgain(RuntimeError):
 
 @dataclasses.dataclass
 class Row:
-	"""One setting: *answer* of measure(), *error*: its distance from the reference, over the size of that (but for a reference of 0), *timeStep* [s] when measure()
-	ended, *cost*: µs for as much simulated time as the first setting's step, *failures* of contact queries, *note*: why there is no answer."""
+	"""One setting: *answer* of measure(), *error*: its distance from the reference, over the size of that (but for a reference of 0),
+	*timeStep* [s] when measure() ended, *cost*: µs for as much simulated time as the first setting's step, *failures* of contact queries,
+	*note*: why there is no answer."""
 
 	name: str
 	changes: dict
@@ -105,11 +106,13 @@ def tradeoff(build, settings, measure, reference, timedSeconds=0.5):
 	"""Runs one scene with several settings and tabulates cost and error of each.
 
 	Each setting runs in a Python process of its own, which reads the script up to this call, calls build(), applies the setting, calls measure(), and
-	then times steps; settings that do the same work may differ by a tenth. Where a run can blow up, let measure() raise an exception then: the row says so.
+	then times steps; settings that do the same work may differ by a tenth. Where a run can blow up, let measure() raise an exception then:
+	the row says so.
 
 	:param build: function that makes the scene with engines and O.dt; it and *measure* stand above the call, at the top of a file
-	:param dict settings: name → changes, {} for the scene as it is. A change is an attribute of the contact functors (*contactModel*, …), *timeStep* [s],
-	    *timeStepFactor* (of the scene's own), *precision* ('double', 'longdouble', 'float128', 'mpfr150': YADE's builds), or any argument of *build*
+	:param dict settings: name → changes, {} for the scene as it is. A change is an attribute of the contact functors (*contactModel*, …),
+	    *timeStep* [s], *timeStepFactor* (of the scene's own), *precision* ('double', 'longdouble', 'float128', 'mpfr150': YADE's builds),
+	    or any argument of *build*
 	:param measure: function without arguments that runs the scene and returns the number that matters, or several as a list
 	:param reference: the true answer, or the name of the setting whose answer counts as true
 	:param float timedSeconds: of each process [s]; 0: the time is the mean over the steps that measure() itself takes

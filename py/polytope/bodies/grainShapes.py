@@ -14,7 +14,8 @@ from .polytopes import fromVertices, ofOneColour
 __all__ = ['GrainShape', 'cornersOf', 'partsOfLoose', 'pointsOnAnEllipsoid', 'shapesOf', 'turnOf']
 
 candidates = 10
-"""Random points tried for each vertex: the one farthest from those that there are is taken (Mitchell's best candidate), so that vertices are spread."""
+"""Random points tried for each vertex: the one farthest from those that there are is taken (Mitchell's best candidate), so that vertices
+are spread."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -59,9 +59,9 @@ def grains(curve, mass=None, elongation=1, flatness=1, vertices=14, seed=None, s
 	:param elongation, flatness: as of randomGrain; or (least, largest), between which they are uniform
 	:param int vertices: of each grain
 	:param int seed: of the random numbers
-	:param shapes: list of bodies whose shapes the grains have, larger or smaller, one or the other at random, in place of *elongation*, *flatness* and
-	    *vertices*: ``[polytope.fromMesh(path) for path in …]``. Their size is the intermediate extent along the principal axes. A list of parts
-	    (``fromMesh(path, parts=8)``) in place of a body is one that is not convex
+	:param shapes: list of bodies whose shapes the grains have, larger or smaller, one or the other at random, in place of *elongation*,
+	    *flatness* and *vertices*: ``[polytope.fromMesh(path) for path in …]``. Their size is the intermediate extent along the principal
+	    axes. A list of parts (``fromMesh(path, parts=8)``) in place of a body is one that is not convex
 	:param int number: of grains, in place of *mass*: that of a sample which has about so many, to some percent
 	:returns: list of bodies; of a shape in parts a list of these in a body's place, as *cloud* and *pack* take it
 	:raises ValueError: naming the argument; *mass* or *number* where so few grains cannot meet the curve
@@ -124,7 +124,8 @@ def _meanCube(least, largest):
 
 
 def _notTooMany(sizes, passing, mass, density):
-	"""Refuses a mass of too many grains. They are counted as if each were as heavy as a cube of the fraction's upper sieve: there are more of them."""
+	"""Refuses a mass of too many grains. They are counted as if each were as heavy as a cube of the fraction's upper sieve: there are more
+	of them."""
 	expected = sum(mass * (high - low) / (density * size**3) for size, low, high in zip(sizes[1:], passing, passing[1:], strict=False))
 	if expected > mostGrains:
 		raise ValueError(
@@ -136,7 +137,8 @@ def cloud(lower, upper, bodies, seed=None):
 	"""Places polyhedra and YADE's spheres at random inside a box, apart from each other, the largest first; their orientations stay.
 
 	:param lower, upper: opposite corners of the box [m]
-	:param bodies: list of bodies, such as grains() makes, spheres among them; the parts of a body that is not convex as a list in its place, for *clump*
+	:param bodies: list of bodies, such as grains() makes, spheres among them; the parts of a body that is not convex as a list in its
+	    place, for *clump*
 	:param int seed: of the random numbers
 	:returns: the bodies
 	:raises ValueError: naming *bodies*, or *upper* where the box is too small for them

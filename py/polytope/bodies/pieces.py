@@ -11,13 +11,13 @@ from .polytopes import defaultCornerFraction, isotropyTolerance
 __all__ = ['pieceOf']
 
 samePlane = 1e-6
-"""How far rounding may move a plane of a piece, as a part of the body's size, or turn it [rad], also far from the origin. A cut that is parallel to a face
-is farther from it, by the least piece that is cut off."""
+"""How far rounding may move a plane of a piece, as a part of the body's size, or turn it [rad], also far from the origin. A cut that is
+parallel to a face is farther from it, by the least piece that is cut off."""
 
 
 def pieceOf(body, cuts):
-	"""The part of a body below planes, as a body that moves with it and has its density, material, colour, mask and blocked degrees of freedom. What is
-	left of a face keeps the material that it has of its own (Polytope.faceMaterials).
+	"""The part of a body below planes, as a body that moves with it and has its density, material, colour, mask and blocked degrees of
+	freedom. What is left of a face keeps the material that it has of its own (Polytope.faceMaterials).
 
 	:param cuts: (normal, offset) of planes, from the body's centre, world axes
 	:returns: the new body, and for each of its planes which of the body's it lies on, −1: a cut

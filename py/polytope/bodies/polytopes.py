@@ -76,7 +76,8 @@ def builder(make=None, *, lacks=()):
 
 @builder
 def fromHalfSpaces(normals, offsets, keepRedundant=True, thickness=None, **body):
-	"""Polyhedron {x : normals[i]·x ≤ offsets[i] for all i} in world coordinates, as a body at its centroid; or a polygon of the xy plane, as *polygon* makes it.
+	"""Polyhedron {x : normals[i]·x ≤ offsets[i] for all i} in world coordinates, as a body at its centroid; or a polygon of the xy plane,
+	as *polygon* makes it.
 
 	:param normals: (n, 3) outward normals of any length [-]; of a polygon (n, 2)
 	:param offsets: n offsets, in units of the normals' length [m]
@@ -151,7 +152,8 @@ def polygon(points2d, thickness=1.0, **body):
 
 	:param points2d: (n, 2) corners [m] in world coordinates, in any order
 	:param float thickness: extent along z for mass and contact areas [m]
-	:raises ValueError: naming *points2d* (also where a corner lies inside the others: the outline is not convex), *thickness*, or a *velocity* or *angularVelocity* out of the plane
+	:raises ValueError: naming *points2d* (also where a corner lies inside the others: the outline is not convex), *thickness*, or a
+	    *velocity* or *angularVelocity* out of the plane
 	"""
 	outline = rows(points2d, 'points2d', 2)
 	points, thickness = vectors(outline, 'points2d', 2), number(thickness, 'thickness')

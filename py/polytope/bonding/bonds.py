@@ -103,7 +103,8 @@ def presentBonds():
 
 
 def facingFaces():
-	"""The faces that bodies have at each other's, as *bond* finds them: PolytopeBonds that never fail and are in no engine, also where bodies touch without a force."""
+	"""The faces that bodies have at each other's, as *bond* finds them: PolytopeBonds that never fail and are in no engine, also where
+	bodies touch without a force."""
 	pattern = PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
 	return PolytopeBonds().find([], -1, _polytope.facingOfJoints, pattern)
 

@@ -27,18 +27,22 @@ def split(id, normal, point=None, smallest=None):
 	"""Breaks a body in two along a plane: ``below, above = polytope.split(7, normal=(0, 0, 1))``. The body is erased, the two pieces are new bodies.
 
 	The pieces fill the body, touch without overlap, and move as it did: mass, centre of mass, linear and angular momentum and kinetic energy
-	are what they were, to rounding. They overlap other bodies as it did: no energy of an overlap is added. Material, colour, mask and blocked degrees of freedom are the body's; a permanent force is not passed on. What
-	is left of a face keeps the material and the joint that it has of its own (Polytope.faceMaterials, *JointedRock.jointsOfFaces*); the fresh faces have none.
+	are what they were, to rounding. They overlap other bodies as it did: no energy of an overlap is added. Material, colour, mask and
+	blocked degrees of freedom are the body's; a permanent force is not passed on. What is left of a face keeps the material and the joint
+	that it has of its own (Polytope.faceMaterials, *JointedRock.jointsOfFaces*); the fresh faces have none.
 
-	Rock joints with a stiffness per area go on, as with *polytope.excavate*: each piece has its share of the face, with shear, slip and cohesion; so do bonds. Other contacts begin anew on the pieces, without shear force, and so do all in a periodic cell.
+	Rock joints with a stiffness per area go on, as with *polytope.excavate*: each piece has its share of the face, with shear, slip and
+	cohesion; so do bonds. Other contacts begin anew on the pieces, without shear force, and so do all in a periodic cell.
 
-	A clump is cut part by part. What lies on one side is one body, a clump where it has several parts, or several bodies where it falls apart. Of a part no piece below *smallest* is cut off.
+	A clump is cut part by part. What lies on one side is one body, a clump where it has several parts, or several bodies where it falls
+	apart. Of a part no piece below *smallest* is cut off.
 
 	:param int id: of a body with a Polytope shape that is in no clump, or of a clump of such
 	:param Vector3 normal: of the plane, of any length, world axes
 	:param Vector3 point: in the plane [m]; default the body's centroid
 	:param float smallest: least inscribed radius of a piece [m]; default a thousandth of the body's, of a clump of the part's
-	:returns: (id of the piece below the plane, id of the one on the side to which the normal points); of a clump that falls apart on a side a tuple of ids for that side
+	:returns: (id of the piece below the plane, id of the one on the side to which the normal points); of a clump that falls apart on a side
+	    a tuple of ids for that side
 	:raises ValueError: naming the argument and the remedy; then nothing is changed
 	:raises RuntimeError: the scene is divided on several processes (docs/mpi.md)
 	"""
@@ -51,7 +55,8 @@ def split(id, normal, point=None, smallest=None):
 
 
 def splitAnew(k, normal, point, smallest):
-	"""A body that is no clump and has no bonds, into (id below, id above) whose contacts all begin anew: nothing is looked for, so that many may break in a step."""
+	"""A body that is no clump and has no bonds, into (id below, id above) whose contacts all begin anew: nothing is looked for, so that
+	many may break in a step."""
 	pieces = [side[0] for side in _pieces(k, normal, point, smallest)]
 	former, made = O.bodies[k], tuple(O.bodies.append(piece.body) for piece in pieces)
 	replaceInSamples(k, made)

@@ -105,7 +105,8 @@ def densityScaling(scene):
 
 
 def order(scene):
-	"""From a ForceResetter on, and round to the first engine again, the loop must come before the integrator; from that on the collider before the loop."""
+	"""From a ForceResetter on, and round to the first engine again, the loop must come before the integrator; from that on the collider
+	before the loop."""
 	if scene.colliders and scene.loops and scene.integrators:
 		after = _roundFrom(scene, scene.integrators[0])
 		if after.index(scene.colliders[0]) > after.index(scene.loops[0]):
@@ -189,7 +190,8 @@ def recorders(scene):
 
 
 def driven(scene):
-	"""Engines that move bodies by their numbers: YADE passes over numbers that there are none of, and moves bodies without a blocked degree of freedom by forces, too."""
+	"""Engines that move bodies by their numbers: YADE passes over numbers that there are none of, and moves bodies without a blocked degree
+	of freedom by forces, too."""
 	bodies = scene.O.bodies
 	for engine in scene.those(KinematicEngine):
 		name = type(engine).__name__

@@ -45,15 +45,16 @@ def derivedShapes(scene):
 
 
 def _isAsked(kind):
-	"""Whether stages ask a class of shapes for its sizes: not those of YADE's that nothing here has a contact with, which may be derived from others that have."""
+	"""Whether stages ask a class of shapes for its sizes: not those of YADE's that nothing here has a contact with, which may be derived
+	from others that have."""
 	if kind in (Box, Facet, Sphere, Wall):
 		return True
 	return kind is not Polytope and (kind in ownClasses(Shape) or bool(ownContactsOf(kind.__name__, 'Polytope')))
 
 
 def faultOfMargin(shape):
-	"""Why the margin of a derived shape is none, as polytope.withShape would say of the shape's attributes; empty: it is one. A step asks nothing: with a margin that is
-	no number or below 0 it would be none."""
+	"""Why the margin of a derived shape is none, as polytope.withShape would say of the shape's attributes; empty: it is one. A step asks
+	nothing: with a margin that is no number or below 0 it would be none."""
 	usual = Polytope().dict()
 	own = {name: value for name, value in shape.dict().items() if name not in usual}
 	probe = Body()
@@ -79,7 +80,8 @@ def ownClosures(scene):
 
 
 def contactsToChoose(one, other, present):
-	"""What to do where the loop has no contact functor for two classes, one of which is of an extension. *present*: names of those that it has, for classes that these are derived from."""
+	"""What to do where the loop has no contact functor for two classes, one of which is of an extension. *present*: names of those that it
+	has, for classes that these are derived from."""
 	own = [name for name in ownContactsOf(one, other) if name not in present]
 	if not own:
 		return f'no loaded extension has one: write it (docs/extending.md), or keep {one} and {other} apart by the masks of the bodies'

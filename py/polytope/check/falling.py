@@ -29,7 +29,8 @@ def falling(scene):
 
 
 def _through(scene):
-	"""Ids of free bodies that meet nothing fixed, nor others that do; members of a clump are held by it, and a mask of 0 marks what is to meet nothing."""
+	"""Ids of free bodies that meet nothing fixed, nor others that do; members of a clump are held by it, and a mask of 0 marks what is to
+	meet nothing."""
 	held = 0
 	for body in scene.bodies:
 		held |= 0 if scene.moves(body) else body.mask

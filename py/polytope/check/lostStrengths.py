@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Strengths of joints that do not act, of polytope.check(): lost to the material on the other side, or not there yet. Each yields (what, seen, advice)."""
+"""Strengths of joints that do not act, of polytope.check(): lost to the material on the other side, or not there yet. Each yields (what,
+seen, advice)."""
 
 import numpy as np
 from yade import Polytope, RockJointMat

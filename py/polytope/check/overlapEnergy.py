@@ -12,7 +12,8 @@ from ..scene.radii import inscribedRadius
 __all__ = ['Thrown']
 
 deep = 0.1
-"""Overlap over the smaller inscribed diameter, some ten times what is usual, above which two bodies were placed into each other, whatever their stiffness."""
+"""Overlap over the smaller inscribed diameter, some ten times what is usual, above which two bodies were placed into each other, whatever
+their stiffness."""
 
 standardGravity = 9.81
 """[m/s²], where a scene in metres and seconds has none: what throws a stone there is no resting contact either."""
@@ -21,9 +22,10 @@ standardGravity = 9.81
 class Thrown:
 	"""Speeds at which contacts that do not exist yet would throw bodies of this scene.
 
-	The elastic energy of the overlap, as the contact computes it, becomes motion, without any damping: the lighter of the two gets v = √(2 E m₂ / (m₁ (m₁ +
-	m₂))). It is told where it is more than √(2 g h), that of a fall over the body's own thickness h, its inscribed diameter: no load that a body on another
-	one carries itself throws it higher than that. Contacts that exist may bear the loads of others, and are told by their depth alone.
+	The elastic energy of the overlap, as the contact computes it, becomes motion, without any damping: the lighter of the two gets v = √(2
+	E m₂ / (m₁ (m₁ + m₂))). It is told where it is more than √(2 g h), that of a fall over the body's own thickness h, its inscribed
+	diameter: no load that a body on another one carries itself throws it higher than that. Contacts that exist may bear the loads of
+	others, and are told by their depth alone.
 	"""
 
 	def __init__(self, scene):
@@ -31,7 +33,8 @@ class Thrown:
 		self.gravity = scene.gravity() or (standardGravity if scene.inMetres() else 0.0)
 
 	def speed(self, one, other, at, otherAt):
-		"""Speed at which their contact throws two polytopes that stand where `at` and `otherAt` do [m/s]: infinite for a deep overlap, 0 for none worth telling."""
+		"""Speed at which their contact throws two polytopes that stand where `at` and `otherAt` do [m/s]: infinite for a deep overlap, 0
+		for none worth telling."""
 		try:
 			# the chord: there is one also for a body within another, on which a contact surface would not act
 			chord = float(_polytope.contact(at, otherAt, contactModel='boon2012', contactPoint='chebyshevCentre').depth)

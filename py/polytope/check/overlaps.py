@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Checks of bodies that begin in each other, of polytope.check(): polytopes, also across the boundary of a periodic cell, and polytopes in YADE's own shapes."""
+"""Checks of bodies that begin in each other, of polytope.check(): polytopes, also across the boundary of a periodic cell, and polytopes in
+YADE's own shapes."""
 
 import collections
 import itertools
@@ -25,7 +26,8 @@ looks = 3000
 """Pairs that are looked at, the nearest ones first: a second of queries is enough to find what was placed wrongly."""
 
 onePlace = 1e-9
-"""Distance over the circumscribed radius, or over a period, up to which two bodies are in one place, and two shapes are one: made elsewhere they differ by rounding."""
+"""Distance over the circumscribed radius, or over a period, up to which two bodies are in one place, and two shapes are one: made elsewhere
+they differ by rounding."""
 
 Rows = collections.namedtuple('Rows', 'bodies places shifts')
 """Polytopes with where they are looked at [m], and by how much that differs from their state's position: in a periodic cell, images as well."""

@@ -88,7 +88,8 @@ def _isDerived(kind):
 
 
 def _hasItsOwn(scene, one, other):
-	"""Whether a contact functor in the loop is made for just these classes, one of which is of an extension, or asks them for their cores, whatever their classes are."""
+	"""Whether a contact functor in the loop is made for just these classes, one of which is of an extension, or asks them for their cores,
+	whatever their classes are."""
 	if not any(kind.shape not in exactly for kind in (one, other)):
 		return False
 	shapes = [scene.examples[kind].shape for kind in (one, other)]
@@ -204,7 +205,8 @@ def forces(scene, loop, functor, one, other):
 
 
 def undamped(scene, maker, law, phys, one, other):
-	"""Contacts on two flat-faced bodies without loss in the normal direction, by the model whose force is no gradient of an energy. A sphere has none of it."""
+	"""Contacts on two flat-faced bodies without loss in the normal direction, by the model whose force is no gradient of an energy. A
+	sphere has none of it."""
 	settings = contactSettings(scene.loops)
 	if 'Sphere' in (one.shape, other.shape) or not settings or settings.contactModel != 'boon2012':
 		return False

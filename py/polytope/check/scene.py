@@ -73,7 +73,8 @@ class SceneToCheck:
 		return belowAll(self)
 
 	def inMetres(self):
-		"""Whether densities and gravity are those of metres, kilograms and seconds: in other units that agree with each other large numbers are no mistake."""
+		"""Whether densities and gravity are those of metres, kilograms and seconds: in other units that agree with each other large numbers
+		are no mistake."""
 		least, most = densities
 		gravity = self.gravity()
 		dense = all(least <= float(body.material.density) <= most for body in self.bodies if body.material and self.moves(body))

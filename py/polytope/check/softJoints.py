@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints on which a block topples far below its own angle, of polytope.check(). It yields (what, seen, advice).
 
-A joint with a normal stiffness per area k carries a block that leans on a wedge of pressure under its edge. With the weight W per breadth the tangent of
-the slope on which there is equilibrium is the largest value, over the turn θ of the block, of
+A joint with a normal stiffness per area k carries a block that leans on a wedge of pressure under its edge. With the weight W per breadth
+the tangent of the slope on which there is equilibrium is the largest value, over the turn θ of the block, of
 
 	(x − L/3) / (y − L sin θ),        L = √(2 N/(k θ)),        x = b/2 cos θ − h/2 sin θ,        y = h/2 cos θ + b/2 sin θ,
 
-with N = W times the cosine of the slope; of a rigid joint it is b/h (Goodman & Bray 1976). What counts is W/(k b²), that is density · gravity · (h/b)/k: blocks of all sizes lose the same angle.
+with N = W times the cosine of the slope; of a rigid joint it is b/h (Goodman & Bray 1976). What counts is W/(k b²), that is density ·
+gravity · (h/b)/k: blocks of all sizes lose the same angle.
 """
 
 import math
@@ -39,7 +40,8 @@ most = 1000
 looks = 20
 """Number of bodies for which it is found out what they touch; those that lose most come first."""
 leastTurn, mostTurn, turns = 1e-6, 0.5, 400
-"""Angles of a leaning block, among which the largest tangent is looked for [rad]: for joints so stiff that it is below them, the loss is far below *lost*."""
+"""Angles of a leaning block, among which the largest tangent is looked for [rad]: for joints so stiff that it is below them, the loss is
+far below *lost*."""
 rounds = 20
 """Number of rounds to find N, whose slope is sought; each makes the error several times smaller."""
 

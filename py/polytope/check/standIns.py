@@ -10,7 +10,8 @@ from ..pictures.faces import worldVertices
 __all__ = ['standIn']
 
 behind = 4.0
-"""Circumscribed radii of the body from its middle at which a wall or facet ends behind its surface: so far away that no other face of it is the nearest one."""
+"""Circumscribed radii of the body from its middle at which a wall or facet ends behind its surface: so far away that no other face of it is
+the nearest one."""
 
 
 def standIn(support, body):

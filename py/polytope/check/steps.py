@@ -96,7 +96,8 @@ def emptyAtFirst(scene):
 
 
 def nothingMoves(scene):
-	"""Nothing sets the step then, and a loop that runs up to a time does so for ever. Looked at for the scene's own engines: bodies may follow later."""
+	"""Nothing sets the step then, and a loop that runs up to a time does so for ever. Looked at for the scene's own engines: bodies may
+	follow later."""
 	if not scene.ownEngines or not scene.bodies or scene.those(PyRunner, KinematicEngine, BaseMotion) or float(scene.O.dt) > yadesDt:
 		return
 	if any(scene.moves(body) for body in scene.bodies):

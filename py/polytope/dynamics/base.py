@@ -16,14 +16,15 @@ def baseMotion(ids, history):
 		O.engines = polytope.engines(damping=0)
 		polytope.baseMotion(base, polytope.velocityHistory('record.txt', unit=9.81))
 
-	The engine *BaseMotion* comes first in O.engines, and is saved with the scene. Bodies turn with nothing, and what was there of their velocity is replaced.
-	YADE's numerical damping acts on absolute velocities and must be 0 as long as the history goes on: it would hold back what the base carries along. Let the scene
-	come to rest before (*settle*), while its own damping is 0.
+	The engine *BaseMotion* comes first in O.engines, and is saved with the scene. Bodies turn with nothing, and what was there of their
+	velocity is replaced. YADE's numerical damping acts on absolute velocities and must be 0 as long as the history goes on: it would hold
+	back what the base carries along. Let the scene come to rest before (*settle*), while its own damping is 0.
 
 	:param ids: number of a body, or several; fixed ones
 	:param history: what *velocityHistory* returns
 	:returns: the engine *BaseMotion*; ``O.engines = [one for one in O.engines if one is not engine]`` removes it, engine.dead = True stops it
-	:raises ValueError: naming the argument: bodies that are not there or not fixed, a history that has begun already, damping other than 0, no NewtonIntegrator
+	:raises ValueError: naming the argument: bodies that are not there or not fixed, a history that has begun already, damping other than 0,
+	    no NewtonIntegrator
 	"""
 	ids, history = bodiesOf(ids), historyOf(history)
 	for k in ids:

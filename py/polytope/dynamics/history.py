@@ -27,18 +27,22 @@ def velocityHistory(record, times=None, kind=None, unit=None, direction=None, ba
 		north = polytope.velocityHistory('RSN6_180.AT2', direction=(0, 1, 0))                         # PEER's; the file tells interval and unit
 
 	The record is linear between its instants. An acceleration is integrated by the trapezoidal rule, from rest. Records do not end at rest, as their
-	zero is not exact: the baseline correction takes away the straight line from the first velocity to the last one, as one constant acceleration would give it.
+	zero is not exact: the baseline correction takes away the straight line from the first velocity to the last one, as one constant
+	acceleration would give it.
 
-	:param record: name of a text file, or values: n numbers, or n rows of three, the components along x, y, z. A file has a column of times [s] and one of values, or three;
-	    lines that begin with # are left out, and columns are separated by blanks or commas. Or it is a file of the PEER database (.AT2, .VT2), with NPTS and DT at its head
+	:param record: name of a text file, or values: n numbers, or n rows of three, the components along x, y, z. A file has a column of times
+	    [s] and one of values, or three; lines that begin with # are left out, and columns are separated by blanks or commas. Or it is a
+	    file of the PEER database (.AT2, .VT2), with NPTS and DT at its head
 	:param times: n instants [s], or the interval between them; not for a file
 	:param str kind: 'acceleration', the default, or 'velocity'; of a PEER file what it says itself
 	:param float unit: of the values, in m/s² or m/s: 9.81 for a record in g, 0.01 for one in cm; default 1, of a PEER file what it says itself
 	:param direction: of a record with one component, of any length but zero; default along x
 	:param bool baseline: whether the baseline is corrected
 	:param float start: O.time [s] at which the record begins; default: now
-	:returns: *VelocityHistory*, with *times* [s] from *start* on, and *velocities* [m/s]; before it the velocity is zero, after it the last one goes on
-	:raises ValueError: naming the argument: times that do not increase, values that are not finite, too few or too many columns, a direction for three of them; of a file with the line
+	:returns: *VelocityHistory*, with *times* [s] from *start* on, and *velocities* [m/s]; before it the velocity is zero, after it the last
+	    one goes on
+	:raises ValueError: naming the argument: times that do not increase, values that are not finite, too few or too many columns, a
+	    direction for three of them; of a file with the line
 	:raises FileNotFoundError: if there is no such file
 	"""
 	if kind is not None and kind not in kinds:

@@ -23,25 +23,26 @@ unheld = 0.01
 
 @namedArguments
 def quietBoundary(ids, normal, pWave, sWave, history=None):
-	"""Lets waves out of the model through the outer faces of bodies, by dashpots (Lysmer & Kuhlemeyer 1969, J. Eng. Mech. Div. ASCE 95:859-877), from now on::
+	"""Lets waves out of the model through the outer faces of bodies, by dashpots (Lysmer & Kuhlemeyer 1969, J. Eng. Mech. Div. ASCE
+	95:859-877), from now on::
 
 		polytope.quietBoundary(base, (0, 0, -1), pWave=sqrt(kn * spacing / density), sWave=sqrt(ks * spacing / density))
 
-	The stress on the faces is ρ c_p times the normal part of their velocity and ρ c_s times the tangential part, against it. In blocks with joints of stiffness k per area
-	that lie across the wave's way at a spacing h, waves much longer than h run at c = √(k h/ρ).
+	The stress on the faces is ρ c_p times the normal part of their velocity and ρ c_s times the tangential part, against it. In blocks with
+	joints of stiffness k per area that lie across the wave's way at a spacing h, waves much longer than h run at c = √(k h/ρ).
 
-	Bodies that were fixed can move along x, y and z after this and cannot turn; what the rest pressed them with at this moment, and their weight, is held by a constant force. Blocks at the boundary
-	that are half as thick as the others reflect least.
+	Bodies that were fixed can move along x, y and z after this and cannot turn; what the rest pressed them with at this moment, and their
+	weight, is held by a constant force. Blocks at the boundary that are half as thick as the others reflect least.
 
 	:param ids: number of a body, or several; polytopes with a face of this outward normal
 	:param normal: outward normal of the boundary, of any length
 	:param float pWave, sWave: speeds c_p, c_s of waves with motion along the normal and across it [m/s]
-	:param history: what *velocityHistory* returns: velocity of a wave that comes in through the boundary, half of what it gives a free surface of the same
-	    rock; None: none does
+	:param history: what *velocityHistory* returns: velocity of a wave that comes in through the boundary, half of what it gives a free
+	    surface of the same rock; None: none does
 	:returns: the engine *QuietBoundary*, which stands before NewtonIntegrator in O.engines and is saved with the scene
-	:raises ValueError: naming the argument: bodies that are not there, without such a face or with a neighbour on it, free bodies that are not at rest, bodies in another quiet
-	    boundary of this normal, or moved by *baseMotion*; a history that has begun
-	    already; no NewtonIntegrator
+	:raises ValueError: naming the argument: bodies that are not there, without such a face or with a neighbour on it, free bodies that are
+	    not at rest, bodies in another quiet boundary of this normal, or moved by *baseMotion*; a history that has begun already; no
+	    NewtonIntegrator
 	"""
 	ids, history = bodiesOf(ids), None if history is None else historyOf(history)
 	normal = np.array([float(x) for x in vector(normal, 'normal')])

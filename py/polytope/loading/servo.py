@@ -37,8 +37,8 @@ def eased(now, goal):
 
 
 def actOn(boundary):
-	"""Has the boundary's move() called in each step from now on, between InteractionLoop and NewtonIntegrator, where forces are known; None: nothing is
-	moved."""
+	"""Has the boundary's move() called in each step from now on, between InteractionLoop and NewtonIntegrator, where forces are known;
+	None: nothing is moved."""
 	if boundary is not None:
 		placeOfForces('the walls are moved')
 	known, acting[0] = acting[0], boundary

@@ -17,8 +17,8 @@ band = 10
 
 
 class ShearBox(LoadingTest):
-	"""What polytope.shearBox() returns. Columns of the record: *displacement* [m], *shearStress*, *normalStress* [Pa], *stressRatio* [-], *rise* of the upper
-	plate since the start [m]. Stresses are forces over the area at the beginning."""
+	"""What polytope.shearBox() returns. Columns of the record: *displacement* [m], *shearStress*, *normalStress* [Pa], *stressRatio* [-],
+	*rise* of the upper plate since the start [m]. Stresses are forces over the area at the beginning."""
 
 	axes = (('displacement', ['stressRatio']), ('displacement', ['rise']))
 	titles = {'displacement': 'displacement [m]', 'stressRatio': 'shear over normal stress [-]', 'rise': 'rise of the upper plate [m]'}
@@ -65,10 +65,12 @@ class ShearBox(LoadingTest):
 
 @namedArguments
 def shearBox(sample, stress, speed=None, inertialNumber=quasiStatic):
-	"""Direct shear: the upper half of the box slides along x over the lower one, under a constant normal stress: ``polytope.shearBox(sample, 1e5).run(0.01)``.
+	"""Direct shear: the upper half of the box slides along x over the lower one, under a constant normal stress:
+	``polytope.shearBox(sample, 1e5).run(0.01)``.
 
 	The sample's walls are replaced by plates at the same places: sides with the walls' friction, rough plates (of the bodies' own material) below
-	and above. Halves divide the height in two, with a gap of a twentieth of a body between them; sides are a quarter of the length thick, so the box stays closed up to that displacement.
+	and above. Halves divide the height in two, with a gap of a twentieth of a body between them; sides are a quarter of the length thick,
+	so the box stays closed up to that displacement.
 
 	:param sample: what polytope.pack returns, between walls
 	:param float stress: normal stress [Pa], positive, on the area at the beginning

@@ -63,7 +63,8 @@ class SimpleShear(LoadingTest):
 
 @namedArguments
 def simpleShear(sample, stress, rate=None, inertialNumber=quasiStatic):
-	"""Simple shear: velocity along x in proportion to z, under a constant normal stress along z: ``polytope.simpleShear(sample, stress=1e5).run(0.3)``.
+	"""Simple shear: velocity along x in proportion to z, under a constant normal stress along z:
+	``polytope.simpleShear(sample, stress=1e5).run(0.3)``.
 
 	Lengths along x and y do not change. Between walls, the sample gets rough plates (of the bodies' own material) below and above, and sides
 	that tilt with it, to a strain of 1. A periodic cell may be sheared on and on.

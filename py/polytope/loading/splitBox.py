@@ -13,13 +13,13 @@ __all__ = ['SplitBox']
 
 
 gap = 0.05
-"""Gap between the halves, over the mean size of the bodies: what slides over the lower half's rim must not lean on it, as in the apparatus; no grain falls
-through."""
+"""Gap between the halves, over the mean size of the bodies: what slides over the lower half's rim must not lean on it, as in the apparatus;
+no grain falls through."""
 
 
 class SplitBox(Sample):
-	"""Lower half: a rough bottom and four smooth sides, which stand still. Upper half: four smooth sides that move along x, and a rough plate that moves
-	with them and holds the normal stress along z, on the area that the box had at the beginning.
+	"""Lower half: a rough bottom and four smooth sides, which stand still. Upper half: four smooth sides that move along x, and a rough
+	plate that moves with them and holds the normal stress along z, on the area that the box had at the beginning.
 	"""
 
 	def __init__(self, sample):

@@ -52,7 +52,8 @@ class WalledSample(Sample):
 		return float(np.prod(extents)) / extents
 
 	def forces(self):
-		"""Forces by which the bodies push the walls of each axis apart [N]: the mean of both; below a heap without a wall above half of its weight."""
+		"""Forces by which the bodies push the walls of each axis apart [N]: the mean of both; below a heap without a wall above half of its
+		weight."""
 		pairs = [[0 if k is None else O.forces.f(k, sync=True)[axis] for k in pair] for axis, pair in enumerate(self.walls)]
 		return np.array([float(above - below) / 2 for below, above in pairs])
 

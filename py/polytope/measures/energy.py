@@ -12,15 +12,18 @@ __all__ = ['mechanicalEnergy', 'storedEnergy']
 
 
 def mechanicalEnergy():
-	"""Take one time step, and return the total energy at the positions it started from: kinetic, of gravity, and of the springs of contacts, bonds and bolts.
+	"""Take one time step, and return the total energy at the positions it started from: kinetic, of gravity, and of the springs of
+	contacts, bonds and bolts.
 
 	YADE's velocities lie half a step between positions. The energy here is made of those before and after the positions,
 	½ m v₋·v₊ + ½ ω₋·I ω₊: under gravity, and in a contact that stays linear, its sum with the potential is then constant to rounding for
 	any time step (with the squares of one of them it would oscillate by f·v Δt/2). Rotation is that of NewtonIntegrator's default for
 	unequal moments of inertia (rotAlgorithm delValle2023). Springs: of rock joints as their law books them, with dilation, tension and a closure of
-	their own; of others kn × *PolytopeGeom.energyPerStiffness* where there is one, else kn depth²/2, and shear force²/(2 ks). Heights are above z = 0, along the gravity of O.engines' NewtonIntegrator.
+	their own; of others kn × *PolytopeGeom.energyPerStiffness* where there is one, else kn depth²/2, and shear force²/(2 ks). Heights are
+	above z = 0, along the gravity of O.engines' NewtonIntegrator.
 
-	Contacts of other laws count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not the energy.
+	Contacts of other laws count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not
+	the energy.
 
 	:returns: [J]
 	:raises ValueError: if O.engines has no NewtonIntegrator, or contact functors of polytopes without Ig2_Polytope_Polytope_PolytopeGeom

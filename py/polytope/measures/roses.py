@@ -18,7 +18,8 @@ planes = {'xy': (0, 1), 'xz': (0, 2), 'yz': (1, 2)}
 def contactRose(path=None, plane='xz', bins=36, weight='number', ids=None):
 	"""Rose diagram of the directions of contacts that bear a force, seen in a plane: ``polytope.contactRose('rose.png')``.
 
-	Each contact counts with its normal and the opposite one, with the length of its projection onto the plane: one normal to the plane has no direction there.
+	Each contact counts with its normal and the opposite one, with the length of its projection onto the plane: one normal to the plane has
+	no direction there.
 
 	:param path: PNG, SVG or PDF file that is drawn; None: none
 	:param str plane: 'xy', 'xz' or 'yz'; angles count from the first axis to the second
@@ -48,7 +49,8 @@ def particleRose(path=None, plane='xz', bins=36, ids=None):
 
 
 def forceHistogram(path=None, bins=40, ids=None):
-	"""Histogram of the contacts' normal forces over their mean: ``polytope.forceHistogram('forces.png')``; strong ones fall off exponentially in granular matter.
+	"""Histogram of the contacts' normal forces over their mean: ``polytope.forceHistogram('forces.png')``; strong ones fall off
+	exponentially in granular matter.
 
 	:param path: PNG, SVG or PDF file that is drawn, with a logarithmic ordinate; None: none
 	:param int bins: of equal width from 0 to the largest force

@@ -16,7 +16,8 @@ __all__ = ['bodyStress']
 
 def bodyStress(ids=None):
 	"""Mean stress of each body, from its contact forces and their arms: σ = 1/V Σ f ⊗ (x − c), with its own volume V and centre c. Bonds, and joints
-	with tensile strength that act as bonds, count with their force and with the first moments of the stresses of bending and twisting over their area.
+	with tensile strength that act as bonds, count with their force and with the first moments of the stresses of bending and twisting over
+	their area.
 
 	The mean of a body in equilibrium; gravity has no part in it about the centroid. Not symmetric where the body is not in equilibrium of
 	moments. A clump is one body, its volume what its parts fill together (with spheres among them: the sum).

@@ -93,8 +93,8 @@ def _record():
 
 
 def merge():
-	"""Brings the whole scene to rank 0; every rank has to call it. The next run() hands it out again: each body to the rank that it had, where that is not
-	changed by divide()."""
+	"""Brings the whole scene to rank 0; every rank has to call it. The next run() hands it out again: each body to the rank that it had,
+	where that is not changed by divide()."""
 	meeting.at('polytope.mpi.merge')
 	if size() == 1 or not O.splitted:
 		return

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Clumps in a divided scene: each belongs whole to one rank, and every rank that has one of its parts has all of it.
 
-The integrator moves a clump by the forces on its members, so that its rank must have them all. Another rank that has a member computes with it as with
-any body of others, but for what is the clump's: its mass in dampers and limits of the time step, whether it is fixed, its other members in internal faces.
-yade.mpy sends bodies that have a box where another rank's box overlaps it, which the clump's own body never does, and its members do one by one.
+The integrator moves a clump by the forces on its members, so that its rank must have them all. Another rank that has a member computes with
+it as with any body of others, but for what is the clump's: its mass in dampers and limits of the time step, whether it is fixed, its other
+members in internal faces. yade.mpy sends bodies that have a box where another rank's box overlaps it, which the clump's own body never
+does, and its members do one by one.
 """
 
 import functools
@@ -47,8 +48,8 @@ def check():
 
 
 def giveMaterials():
-	"""Gives each clump a material, on rank 0, before the scene is handed out: when it is merged, YADE looks up the material of each body that a worker
-	has moved, and a clump has none."""
+	"""Gives each clump a material, on rank 0, before the scene is handed out: when it is merged, YADE looks up the material of each body
+	that a worker has moved, and a clump has none."""
 	for body in O.bodies:
 		if body.isClump and body.dynamic:
 			body.material = O.bodies[body.shape.ids[0]].material
@@ -62,8 +63,8 @@ def takeMaterials():
 
 
 def wholeClumps(genLocalIntersections):
-	"""Wraps the function that lists this rank's bodies that another rank needs: of a clump it lists all that belongs to it, in place of the members that
-	are near."""
+	"""Wraps the function that lists this rank's bodies that another rank needs: of a clump it lists all that belongs to it, in place of the
+	members that are near."""
 
 	@functools.wraps(genLocalIntersections)
 	def generate(subdomains):

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What contacts each body has, which dampers need (StiffnessSums), in a divided scene: a rank has all contacts of its own bodies alone.
 
-So in each step, before the contacts, every rank gives the others the sums of those of its bodies that they know. Rank 0 has fixed bodies, of which there are none.
+So in each step, before the contacts, every rank gives the others the sums of those of its bodies that they know. Rank 0 has fixed bodies,
+of which there are none.
 """
 
 from yade import O, _polytope, mpy

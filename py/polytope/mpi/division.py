@@ -194,8 +194,8 @@ def _checkSettings():
 
 
 def _withNeighboursOfBoth(genLocalIntersections):
-	"""A worker is a neighbour where either of both finds it so: their searches for pairs differ where boxes just meet, and one would wait for the other's
-	message for ever."""
+	"""A worker is a neighbour where either of both finds it so: their searches for pairs differ where boxes just meet, and one would wait
+	for the other's message for ever."""
 
 	@functools.wraps(genLocalIntersections)
 	def generate(subdomains):
@@ -250,8 +250,8 @@ def _withCollider(parallelCollide):
 
 
 def _withIdleRanks(checkAndCollide):
-	"""The collider's check, for ranks without bodies that have a box, too. On such a rank, which is rank 0 where nothing is fixed, the integrator leaves 0, and the collider takes it that no
-	step was done: all ranks would search for pairs in every step."""
+	"""The collider's check, for ranks without bodies that have a box, too. On such a rank, which is rank 0 where nothing is fixed, the
+	integrator leaves 0, and the collider takes it that no step was done: all ranks would search for pairs in every step."""
 
 	@functools.wraps(checkAndCollide)
 	def check():

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints between bodies of two ranks that are open: their boxes do not meet, but the joint remembers its slip until the bodies touch again.
 
-yade.mpy gives a rank the bodies of others that are near its own, by boxes, and deletes the rest with their contacts. Here a rank asks, in each search for
-pairs, for the other bodies of its contacts, too.
+yade.mpy gives a rank the bodies of others that are near its own, by boxes, and deletes the rest with their contacts. Here a rank asks, in
+each search for pairs, for the other bodies of its contacts, too.
 """
 
 import functools
@@ -16,8 +16,8 @@ _partners = []
 
 
 def remember():
-	"""Remembers the present contacts before a search for pairs, on every rank. Returns them, since the first search after the scene was divided deletes
-	them."""
+	"""Remembers the present contacts before a search for pairs, on every rank. Returns them, since the first search after the scene was
+	divided deletes them."""
 	global _partners
 	contacts = _polytope.WorkerContacts() if mpy.rank > 0 else None
 	_partners = contacts.partners() if contacts else []

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bodies that change ranks during a run, mpy.REALLOCATE_FREQUENCY: in place of yade.mpy's way, which leaves the new rank without bodies that they touch
-until the next search for pairs, and without their contacts.
+"""Bodies that change ranks during a run, mpy.REALLOCATE_FREQUENCY: in place of yade.mpy's way, which leaves the new rank without bodies
+that they touch until the next search for pairs, and without their contacts.
 
-Which bodies go where is decided by mpy.REALLOCATE_FILTER, as there; the one here takes the place of mpy.medianFilter, which moved no body in any scene
-tried. They go with their contacts, after the bodies that they may touch: a rank takes a
-contact over when both its bodies are there. A search for pairs by all ranks follows, so that each has the bodies it needs in the next step.
+Which bodies go where is decided by mpy.REALLOCATE_FILTER, as there; the one here takes the place of mpy.medianFilter, which moved no body
+in any scene tried. They go with their contacts, after the bodies that they may touch: a rank takes a contact over when both its bodies are
+there. A search for pairs by all ranks follows, so that each has the bodies it needs in the next step.
 """
 
 from yade import O, mpy

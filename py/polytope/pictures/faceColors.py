@@ -26,7 +26,8 @@ def faceColors(bodies, colorBy, valueRange):
 
 
 class FaceColors:
-	"""Colours of numbers: below the length of the palette one each, so that a number has the same colour in all pictures; of others the shades of a scale."""
+	"""Colours of numbers: below the length of the palette one each, so that a number has the same colour in all pictures; of others the
+	shades of a scale."""
 
 	def __init__(self, polytopes, numbers):
 		self._numbers = numbers

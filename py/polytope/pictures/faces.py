@@ -24,7 +24,8 @@ mostSphereFaces = 2_500_000
 def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 'solid'):
 	"""The bodies' faces in world coordinates, as arrays.
 
-	:param colorOf: function of a body: RGB in 0…1, or an array (faces, 3) with that of each face; of a polygon each side's is seen along it on the caps
+	:param colorOf: function of a body: RGB in 0…1, or an array (faces, 3) with that of each face; of a polygon each side's is seen along it
+	    on the caps
 	:param styleOf: function of a body: any word; bodies of the same word come together, 'hidden' ones not at all
 	:returns: dictionary style → {points (n, 3), offsets (faces + 1), connectivity, colors (faces, 3) bytes, ids (faces)};
 	    spheres are of the style 'smooth'

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Colours of single faces of a polygon, which a picture shows from the end: its sides are lines there, so each colours a strip of the cap along it."""
+"""Colours of single faces of a polygon, which a picture shows from the end: its sides are lines there, so each colours a strip of the cap
+along it."""
 
 import numpy as np
 

@@ -58,7 +58,8 @@ def picture(
 	:param bodies: the bodies to draw; default all of O.bodies
 	:param colorBy: 'color' (each body's own), 'height' (of the centre, along *up*), 'speed', 'size' (edge of the cube of equal volume),
 	    'displacement' (from refPos), or a function of the body that returns a number. One that returns a whole number for each plane of a
-	    polytope's shape colours its faces, such as the joint sets that made them (*JointedRock.setsOfFaces*), those of a polygon along its sides; grey where it is negative
+	    polytope's shape colours its faces, such as the joint sets that made them (*JointedRock.setsOfFaces*), those of a polygon along its
+	    sides; grey where it is negative
 	:param valueRange: (low, high) ends of the colour scale; default those of the moving bodies
 	:param str legend: draw the colour scale, or the colours of faces with their numbers, with this text
 	:param str fixed: bodies that cannot move: 'solid', 'glass' (translucent), 'wire' (edges), 'hidden', or 'auto': wire where

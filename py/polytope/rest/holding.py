@@ -33,7 +33,8 @@ def touched(k):
 
 
 def facingPairs():
-	"""Pairs of ids of bodies with a face at each other's, the smaller id first, as *polytope.bond* finds them: also where they touch without a force, and so have no contact."""
+	"""Pairs of ids of bodies with a face at each other's, the smaller id first, as *polytope.bond* finds them: also where they touch
+	without a force, and so have no contact."""
 	return _inOrder((one.id1, one.id2) for one in facingFaces())
 
 
@@ -64,8 +65,8 @@ def _links():
 
 
 def unsupported(moving):
-	"""Which of these bodies hang in the air: no chain of contacts, bonds and bolts connects them to a fixed one or to one that is at rest, and nothing
-	is below them, other than bodies that fall themselves. Id → the group that falls as one.
+	"""Which of these bodies hang in the air: no chain of contacts, bonds and bolts connects them to a fixed one or to one that is at rest,
+	and nothing is below them, other than bodies that fall themselves. Id → the group that falls as one.
 
 	:param moving: ids of the bodies that are not at rest, of clumps their own
 	"""

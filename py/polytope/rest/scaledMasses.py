@@ -46,7 +46,8 @@ def scaledMasses():
 
 @contextlib.contextmanager
 def scaledMassesIfPossible():
-	"""Masses scaled as by scaledMasses() where they may be and a time stepper sets the time step; elsewhere nothing is changed, and the value is None."""
+	"""Masses scaled as by scaledMasses() where they may be and a time stepper sets the time step; elsewhere nothing is changed, and the
+	value is None."""
 	try:
 		_refuse()
 		possible = bool(_steppers())

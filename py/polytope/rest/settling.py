@@ -27,27 +27,29 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000, densitySca
 
 	Gravity that begins at once makes bodies swing: joints then bear up to twice their load, and one with cohesion or tensile strength and a
 	factor of safety below two fails in the first swing. So while the bodies come to rest the joints are elastic: those that touch do
-	not slip, intact ones do not fail and bear any tension, and bonds (*polytope.bond*) and bolts (*polytope.bolt*) do not break or yield; motion is damped strongly. Then they have their strength
-	and the scene its damping again. What they can't bear fails in the steps that follow, from rest. A warning names bodies that touched others, or were held by bonds or bolts, at the start
-	and came to rest elsewhere: they slid, fell or toppled.
+	not slip, intact ones do not fail and bear any tension, and bonds (*polytope.bond*) and bolts (*polytope.bolt*) do not break or yield;
+	motion is damped strongly. Then they have their strength and the scene its damping again. What they can't bear fails in the steps that
+	follow, from rest. A warning names bodies that touched others, or were held by bonds or bolts, at the start and came to rest elsewhere:
+	they slid, fell or toppled.
 
 	Joints that have no strength but friction stick meanwhile, too. Joints that have failed stay so. Time goes on (O.time), and other engines run;
 	forces of excavated bodies that still fade (*polytope.excavate*) are waited for.
 	A state that is saved meanwhile has joints with their strength, but this damping.
 
-	:param unbalanced: resultant force on a body over its weight, or over half of what its contacts, bonds and bolts bear where that is more, below which it counts as
-	    being at rest [-]; of all bodies that can move
+	:param unbalanced: resultant force on a body over its weight, or over half of what its contacts, bonds and bolts bear where that is
+	    more, below which it counts as being at rest [-]; of all bodies that can move
 	:param elastic: False: joints keep their strength, only damping is changed
 	:param damping: of NewtonIntegrator meanwhile [-], above 0 and below 1
 	:param steps: most steps to take
-	:param densityScaling: True: bodies that need a smaller time step than half of all bodies do, such as slivers, are heavier meanwhile, with the weight that
-	    they have: the same state of rest in fewer steps. Masses are what they were when the function returns. Time (O.time) has no meaning meanwhile, and
-	    PolytopeCheckpoint does not save
+	:param densityScaling: True: bodies that need a smaller time step than half of all bodies do, such as slivers, are heavier meanwhile,
+	    with the weight that they have: the same state of rest in fewer steps. Masses are what they were when the function returns. Time
+	    (O.time) has no meaning meanwhile, and PolytopeCheckpoint does not save
 	:returns: the number of steps taken
-	:raises ValueError: if an argument is out of range, if O.engines has no NewtonIntegrator, or naming *densityScaling* in a scene in motion: with BaseMotion, QuietBoundary
-	    or bodies of prescribed velocity, or with weights that are not NewtonIntegrator.gravity
-	:raises NotAtRest: a RuntimeError that names the bodies which do not come to rest, with their unbalanced force and why, as soon as that is clear: they fall with nothing below, slide away, or
-	    tremble in place; or all that move after so many steps. Strengths and damping are the scene's own again
+	:raises ValueError: if an argument is out of range, if O.engines has no NewtonIntegrator, or naming *densityScaling* in a scene in
+	    motion: with BaseMotion, QuietBoundary or bodies of prescribed velocity, or with weights that are not NewtonIntegrator.gravity
+	:raises NotAtRest: a RuntimeError that names the bodies which do not come to rest, with their unbalanced force and why, as soon as that
+	    is clear: they fall with nothing below, slide away, or tremble in place; or all that move after so many steps. Strengths and damping
+	    are the scene's own again
 	"""
 	unbalanced, damping, steps = number(unbalanced, 'unbalanced'), number(damping, 'damping'), number(steps, 'steps')
 	if not unbalanced > 0:

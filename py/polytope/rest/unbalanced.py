@@ -15,7 +15,8 @@ __all__ = ['resultants', 'unbalancedForce', 'unbalancedForces']
 
 
 def unbalancedForce(watched=None):
-	"""Unbalanced force of the body that is least at rest: its resultant, along what it can move, over its weight, or over half of what contacts, bonds and bolts press and pull it with, where that is more.
+	"""Unbalanced force of the body that is least at rest: its resultant, along what it can move, over its weight, or over half of what
+	contacts, bonds and bolts press and pull it with, where that is more.
 
 	:param watched: ids, of clumps their own; None: all that can move
 	"""
@@ -23,7 +24,8 @@ def unbalancedForce(watched=None):
 
 
 def unbalancedForces(watched=None, masses=None):
-	"""Unbalanced force of each body over its scale (unbalancedForce), by its id [-]; 0 of those that cannot move or are not watched, and of parts of clumps.
+	"""Unbalanced force of each body over its scale (unbalancedForce), by its id [-]; 0 of those that cannot move or are not watched, and of
+	parts of clumps.
 
 	:param masses: true masses by id, where those of the scene are scaled [kg]
 	"""

@@ -19,14 +19,17 @@ __all__ = ['NotAtRest', 'Restless', 'Unrest', 'placesById', 'remedy', 'told']
 firstSpan = 1250
 """Length of the first span in steps; as often it is looked what falls, which it has by more than its size."""
 patience = 10000
-"""Steps before what trembles or slides away beside others is given up: some swings of the largest bodies of a mass whose time step is set by the smallest ones."""
+"""Steps before what trembles or slides away beside others is given up: some swings of the largest bodies of a mass whose time step is set
+by the smallest ones."""
 asBefore = 0.7
 """Mean force over its mean in the span before, half as long, above which it does not fade."""
 inPlace, drift = 1e-3, 1.5
-"""Largest way in a span over the body's size, and over that in the span before, below which it trembles and does not move: with a steady speed the latter is two, from rest faster and faster three or more."""
+"""Largest way in a span over the body's size, and over that in the span before, below which it trembles and does not move: with a steady
+speed the latter is two, from rest faster and faster three or more."""
 turns = 10
-"""Path over the largest way in a span, from which on it goes to and fro and does not swing: one swing of a slender column, almost upright against its slope, takes 20000 steps or more, and in
-a quarter of it the force of one that comes to rest does not fade. A path from look to look is some fifty ways where it trembles, and one or two in a part of a swing."""
+"""Path over the largest way in a span, from which on it goes to and fro and does not swing: one swing of a slender column, almost upright
+against its slope, takes 20000 steps or more, and in a quarter of it the force of one that comes to rest does not fade. A path from look to
+look is some fifty ways where it trembles, and one or two in a part of a swing."""
 still = 1e-9
 """Way over the size that is none but rounding."""
 away = 0.5
@@ -63,8 +66,8 @@ class NotAtRest(RuntimeError):
 class Unrest:
 	"""Follows a scene from look to look, from when it is made.
 
-	Steps are divided into spans, each of them as long as all before it. A body that goes to and fro, and whose mean force in a span is nearly what it was in the one before, will be no nearer to
-	rest after twice as many steps.
+	Steps are divided into spans, each of them as long as all before it. A body that goes to and fro, and whose mean force in a span is
+	nearly what it was in the one before, will be no nearer to rest after twice as many steps.
 
 	:param float bound: unbalanced force below which a body is at rest
 	:param watched: ids; None: all that can move
@@ -102,14 +105,16 @@ class Unrest:
 		return float(forces.max(initial=0.0))
 
 	def displaced(self, held=frozenset()):
-		"""Bodies that touched others when it began, or were held in another way (their ids), and have moved by a tenth of their size or more, as (id, way [m]), the farthest first."""
+		"""Bodies that touched others when it began, or were held in another way (their ids), and have moved by a tenth of their size or
+		more, as (id, way [m]), the farthest first."""
 		ways = _ways(self.origin, placesById())
 		stood = (self.stood or set()) | held
 		far = [(int(k), float(ways[k])) for k in np.flatnonzero(ways > 0) if int(k) in stood and ways[k] > displacedBy * sizeOf(int(k))]
 		return sorted(far, key=lambda one: -one[1])
 
 	def hopeless(self):
-		"""What falls or slides far away; or all bodies that are not at rest, if none of them comes nearer to it, as *Restless*; else none. To be asked after each look."""
+		"""What falls or slides far away; or all bodies that are not at rest, if none of them comes nearer to it, as *Restless*; else none.
+		To be asked after each look."""
 		if self.steps < self.end:
 			return self._falling()
 		found = self.moving()

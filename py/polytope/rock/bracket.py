@@ -9,11 +9,13 @@ __all__ = ['Bracket']
 growth = 1.5
 """Growth of the factor from one trial to the next, until one fails."""
 beside = 0.4
-"""Distance of trials from the estimated limit over the tolerance, on either side: the nearer, the longer they take, and both together must be within the tolerance."""
+"""Distance of trials from the estimated limit over the tolerance, on either side: the nearer, the longer they take, and both together must
+be within the tolerance."""
 patience = 2
 """Estimates on end that may be wrong."""
 near = 0.5
-"""How far beyond the lower of two factors that failed an estimate counts, over their distance, in 1/F: far above the limit a mass fails in other modes."""
+"""How far beyond the lower of two factors that failed an estimate counts, over their distance, in 1/F: far above the limit a mass fails in
+other modes."""
 
 
 class _Failed(NamedTuple):
@@ -29,12 +31,14 @@ class _Failed(NamedTuple):
 class Bracket:
 	"""Divisors of strength between which the limit lies: *stable* and *failed*.
 
-	The motion in the trial that failed by the lowest factor tells where the limit is (*Motion*). Where it does not: if a body slides, the force that it lacks to stand is linear in tan φ/F and c/F, and the two
-	lowest factors that failed tell by a straight line in 1/F where it is zero, if the same body moved farthest in both. A trial on either side of this estimate ends the search if it is right. If it is wrong
-	and failed, its own motion tells better; else, and after the second one on end, the bracket is halved next.
+	The motion in the trial that failed by the lowest factor tells where the limit is (*Motion*). Where it does not: if a body slides, the
+	force that it lacks to stand is linear in tan φ/F and c/F, and the two lowest factors that failed tell by a straight line in 1/F where
+	it is zero, if the same body moved farthest in both. A trial on either side of this estimate ends the search if it is right. If it is
+	wrong and failed, its own motion tells better; else, and after the second one on end, the bracket is halved next.
 
-	A trial that begins at a much larger strength makes bodies swing, and where joints hardly hold more than the load, such a swing alone carries them far. So it counts as failed in the end only if it
-	failed from within the tolerance, and is made again from there if it did not; what it forgets if it stands then.
+	A trial that begins at a much larger strength makes bodies swing, and where joints hardly hold more than the load, such a swing alone
+	carries them far. So it counts as failed in the end only if it failed from within the tolerance, and is made again from there if it did
+	not; what it forgets if it stands then.
 
 	:param float tolerance: width over the factor that is asked for
 	:param float most: largest factor to try

@@ -70,8 +70,9 @@ def facing(normals, along):
 
 
 def facesThatCount(cosine1, cosine2):
-	"""Whether the faces of body 1 and of body 2 count in a contact, by the cosines of their angles with it: both where both lie on it (src/bond/BondTolerances.hpp), else the
-	closer one, as the physics of rock joints has it (Ip2_RockJointMat_RockJointMat_RockJointPhys)."""
+	"""Whether the faces of body 1 and of body 2 count in a contact, by the cosines of their angles with it: both where both lie on it
+	(src/bond/BondTolerances.hpp), else the closer one, as the physics of rock joints has it
+	(Ip2_RockJointMat_RockJointMat_RockJointPhys)."""
 	if min(cosine1, cosine2) > math.cos(_polytope.facingOfJoints):
 		return True, True
 	return cosine1 >= cosine2, cosine1 < cosine2

@@ -30,7 +30,8 @@ from .motion import Motion
 __all__ = ['FactorOfSafety', 'Trial', 'factorOfSafety']
 
 atRest, loosest = 0.05, 1e-3
-"""Unbalanced force, as of *settle*, below which bodies stand, over the tolerance [-]: one that slides has about the part by which its strength is too small, so this is far below it; and the largest such force, whatever the tolerance."""
+"""Unbalanced force, as of *settle*, below which bodies stand, over the tolerance [-]: one that slides has about the part by which its
+strength is too small, so this is far below it; and the largest such force, whatever the tolerance."""
 still = 1e-3
 """Way of a body in these looks, over that which counts as failure, below which it stands: what swings slowly has no unbalanced force for a moment."""
 between, looks = 50, 3
@@ -38,7 +39,8 @@ between, looks = 50, 3
 damping = 0.4
 """Damping of NewtonIntegrator in trials: local damping takes a part of the unbalanced force, so it does not move the limit of what stands."""
 gently = 1.02
-"""Largest ratio from one factor to the next where a bolt has no pretension: it bears only what blocks have moved by, and they would overshoot from a larger one."""
+"""Largest ratio from one factor to the next where a bolt has no pretension: it bears only what blocks have moved by, and they would
+overshoot from a larger one."""
 before, standing = 'factorOfSafety', 'factorOfSafety.standing'
 """Names of states in memory: as the scene was, and the last one at rest."""
 
@@ -49,12 +51,14 @@ class Trial:
 
 	factor: float
 	outcome: str
-	"""'stable': at rest; 'failed': a body has moved too far, or does so faster and faster; 'creeping': neither by the last step, which counts as failure."""
+	"""'stable': at rest; 'failed': a body has moved too far, or does so faster and faster; 'creeping': neither by the last step, which
+	counts as failure."""
 	steps: int
 	unbalanced: float
 	"""Force at the end [-]."""
 	displacement: float
-	"""Way of the body that has moved farthest for its size, since the first state that stood: with the scene's own strengths, or with *most* times them where the factor is below 1 [m]."""
+	"""Way of the body that has moved farthest for its size, since the first state that stood: with the scene's own strengths, or with
+	*most* times them where the factor is below 1 [m]."""
 	trembling: list = dataclasses.field(default_factory=list)
 	"""Ids of bodies whose force does not fade though they stay where they are (*unrest*): 'stable' all the same."""
 
@@ -71,21 +75,26 @@ class FactorOfSafety(Failure):
 def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps=200000):
 	"""The number by which all strengths of joints and bonds can be divided until bodies move away: ``print(polytope.factorOfSafety())``.
 
-	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first; if it fails, the factor is below 1, and the search begins with *most* times its strengths. Then strengths are divided by a number between what stood and what failed, trial by trial. A trial begins
-	at the last state that stood: strengths are only ever lowered from there, so its forces are in equilibrium, and no joint bore more than its strength on the way, as if rock weathered. It
-	is stable when no body has an unbalanced force above a twentieth of the tolerance (0.001 at most) and none moves, or only such as tremble in place for good. It has failed when a body has moved by a fiftieth of its size since the scene stood with its own strengths, or in this trial by a
-	quarter of that faster and faster, with nothing ahead that could stop it and no bolt or bond that holds it. A body that moves and comes to rest before is stable. Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a
-	time. Then the scene is what it was, time and
-	joints included. Bodies, contacts and engines are new Python objects, as after O.loadTmp: hold ids.
+	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first; if it fails, the factor is below
+	1, and the search begins with *most* times its strengths. Then strengths are divided by a number between what stood and what failed,
+	trial by trial. A trial begins at the last state that stood: strengths are only ever lowered from there, so its forces are in
+	equilibrium, and no joint bore more than its strength on the way, as if rock weathered. It is stable when no body has an unbalanced
+	force above a twentieth of the tolerance (0.001 at most) and none moves, or only such as tremble in place for good. It has failed when a
+	body has moved by a fiftieth of its size since the scene stood with its own strengths, or in this trial by a quarter of that faster and
+	faster, with nothing ahead that could stop it and no bolt or bond that holds it. A body that moves and comes to rest before is stable.
+	Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a time. Then
+	the scene is what it was, time and joints included. Bodies, contacts and engines are new Python objects, as after O.loadTmp: hold ids.
 
-	Where a time stepper sets the time step, bodies that need a smaller one than half of all bodies do are heavier in the trials, with the weight that they have (as by *polytope.settle*, densityScaling).
+	Where a time stepper sets the time step, bodies that need a smaller one than half of all bodies do are heavier in the trials, with the
+	weight that they have (as by *polytope.settle*, densityScaling).
 
 	Other engines of O.engines run in the trials, too: those that write files should be dead meanwhile.
 
 	:param bodies: ids of those that count; default all that can move
 	:param reduce: which strengths: of 'friction', 'cohesion' and 'tension'
 	:param float tolerance: width of the bracket over the factor
-	:param float most: factor at which to give up: what stands there has an infinite one, with no mode; and by which strengths are multiplied where it is below 1
+	:param float most: factor at which to give up: what stands there has an infinite one, with no mode; and by which strengths are
+	    multiplied where it is below 1
 	:param int steps: most of a trial; one that is neither at rest nor away by then counts as failed
 	:returns: *FactorOfSafety*
 	:raises ValueError: naming the argument: bodies that cannot move, or without joints and bonds whose strength could be reduced
@@ -158,7 +167,8 @@ class _Search:
 		self.limit = None
 		"""Factor that the motion in the last trial tells."""
 		self.settled = None
-		"""Whether the scene was at rest at first: then it may swing and fail as its joints begin to slip, and stand with the same strengths from a state in which they have slipped."""
+		"""Whether the scene was at rest at first: then it may swing and fail as its joints begin to slip, and stand with the same strengths
+		from a state in which they have slipped."""
 		self.left = 1
 		"""Trials that are expected, with the present one: for the time left in the bar."""
 

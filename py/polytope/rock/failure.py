@@ -21,7 +21,8 @@ class Failure:
 	stable: float
 	"""Highest number by which strengths were divided and the scene stood."""
 	failed: float
-	"""Lowest one at which it failed; infinite: it stood with all that were tried, so it fails by no lack of these strengths, or at a larger number than *most*."""
+	"""Lowest one at which it failed; infinite: it stood with all that were tried, so it fails by no lack of these strengths, or at a larger
+	number than *most*."""
 	bodies: list
 	"""Ids of those that moved when it failed, the farthest first: all that moved at least a tenth as far."""
 	displacements: np.ndarray

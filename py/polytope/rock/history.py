@@ -28,11 +28,15 @@ def history(points, every=100, stress=False):
 	"""Records how points of bodies move, in yade.plot: ``polytope.history({'crown': (0, 0, 2.1), 'wall': 17}, every=50)``.
 
 	Adds an engine to O.engines that adds a row to *plot.data* at once and then every so many steps: *i* (O.iter), *t* (O.time) and for each name
-	*crown_x*, *crown_y*, *crown_z*, its displacement since this call [m]. A point moves with the body that it lies in. With *stress* also *crown_xx*, *crown_yy*, *crown_zz*, *crown_xy*,
-	*crown_yz* and *crown_zx*, bodyStress of this body [Pa]. ``plot.plot()``, ``plot.saveDataTxt(…)`` and numpy.array(plot.data['crown_z']) show them. The
-	engine is saved with the scene and goes on when that is loaded, the rows are not. Rows of later steps than this one, which a former scene has left in *plot.data*, are removed, with a warning. It records nothing of a body that is no more (nan), nor of the trials of *factorOfSafety*. Several calls share the row of a step; one that has no row of another call has nan in its columns.
+	*crown_x*, *crown_y*, *crown_z*, its displacement since this call [m]. A point moves with the body that it lies in. With *stress* also
+	*crown_xx*, *crown_yy*, *crown_zz*, *crown_xy*, *crown_yz* and *crown_zx*, bodyStress of this body [Pa]. ``plot.plot()``,
+	``plot.saveDataTxt(…)`` and numpy.array(plot.data['crown_z']) show them. The engine is saved with the scene and goes on when that is
+	loaded, the rows are not. Rows of later steps than this one, which a former scene has left in *plot.data*, are removed, with a warning.
+	It records nothing of a body that is no more (nan), nor of the trials of *factorOfSafety*. Several calls share the row of a step; one
+	that has no row of another call has nan in its columns.
 
-	:param points: dictionary of names (letters, digits, _) → id of a body, for its centre, or point in a body that can move [m]: of two components for a polygon
+	:param points: dictionary of names (letters, digits, _) → id of a body, for its centre, or point in a body that can move [m]: of two
+	    components for a polygon
 	:param int every: steps from one row to the next
 	:param bool stress: whether to record stresses
 	:returns: the names of the columns

@@ -82,7 +82,8 @@ class _FlatSet(JointSet):
 
 	@property
 	def intensity(self):
-		"""Length of joints in a unit area, P21 [1/m]. Of scattered ones over what a line along the mean normal meets: the mean of |cos| by von Mises' distribution, L₋₁(κ)/I₀(κ)."""
+		"""Length of joints in a unit area, P21 [1/m]. Of scattered ones over what a line along the mean normal meets: the mean of |cos| by
+		von Mises' distribution, L₋₁(κ)/I₀(κ)."""
 		if self.p32 is not None:
 			return self.p32
 		if self.fisher is None:

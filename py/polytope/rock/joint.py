@@ -107,7 +107,8 @@ class Joint:
 
 @dataclasses.dataclass
 class Cut:
-	"""A joint as it cuts, in any coordinates (jointedRock's about the region's centre, where numbers are small): a plane, or a disc (radius above 0), less what lies beyond its edges."""
+	"""A joint as it cuts, in any coordinates (jointedRock's about the region's centre, where numbers are small): a plane, or a disc (radius
+	above 0), less what lies beyond its edges."""
 
 	normal: np.ndarray
 	centre: np.ndarray

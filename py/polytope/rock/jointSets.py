@@ -31,14 +31,15 @@ class JointSet:
 	:param float dip: angle of the planes below the horizontal [rad], 0…π/2
 	:param float dipDirection: azimuth of the line of dip, clockwise from north (y) as seen from above [rad]
 	:param float spacing: mean distance between neighbouring joints along the mean normal [m]
-	:param through: a point on one of the joints [m], in the plane of two components or three; default the region's centroid. Only for equal distances.
+	:param through: a point on one of the joints [m], in the plane of two components or three; default the region's centroid. Only for equal
+	    distances.
 	:param bool exponential: distances drawn from the negative exponential distribution (Priest & Hudson 1976, Int. J. Rock Mech.
 	    Min. Sci. 13:135-148) rather than all equal. Those of discs are.
 	:param float fisher: constant κ of Fisher's distribution of the normals about the mean one (Fisher 1953, Proc. R. Soc. A
 	    217:295-305): the larger the closer together; None: all parallel
 	:param float p32: area of joints in a unit volume [1/m], in place of *spacing*; distances are random
-	:param radius: of discs [m]: a number, ('exponential', mean), ('lognormal', mean, standard deviation), or ('powerLaw', smallest, largest, exponent),
-	    the density of radii in proportion to r^−exponent; None: planes
+	:param radius: of discs [m]: a number, ('exponential', mean), ('lognormal', mean, standard deviation), or ('powerLaw', smallest,
+	    largest, exponent), the density of radii in proportion to r^−exponent; None: planes
 	:param float termination: probability that a disc which meets a joint of an earlier set, or an earlier single joint, ends there
 	:param float persistence: probability that a block which a joint reaches into is cut by it, 0…1
 	:raises ValueError: naming the argument
@@ -142,7 +143,8 @@ class JointSet:
 		return sorted(found, key=lambda cut: -cut.radius)
 
 	def _drawn(self, region, earlier, entry, random):
-		"""Some joints that may reach into the ball about the region: along its normal the centre of each is within the ball, across within the sum of both radii."""
+		"""Some joints that may reach into the ball about the region: along its normal the centre of each is within the ball, across within
+		the sum of both radii."""
 		normals = self._normals(drawnAtOnce, random)
 		heights = random.uniform(-region.radius, region.radius, drawnAtOnce)
 		centres = heights[:, None] * normals

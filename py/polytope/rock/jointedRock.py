@@ -2,7 +2,8 @@
 """A rock mass cut into blocks by joints.
 
 Blocks are lists of half-spaces, so a joint cuts a block in two by being added to it once from either side (src/shape/JointedBlocks.hpp; Boon,
-Houlsby & Utili 2015, "A new rock slicing method based on linear programming", Computers and Geotechnics 65:12-29). Coordinates: x east, y north, z up.
+Houlsby & Utili 2015, "A new rock slicing method based on linear programming", Computers and Geotechnics 65:12-29). Coordinates: x east, y
+north, z up.
 """
 
 import dataclasses
@@ -70,21 +71,23 @@ class JointedRock:
 	entries: int
 	"""Number of *jointSets*, a list of joints counted as many times as it has sets."""
 	placed: dict = dataclasses.field(default_factory=dict, repr=False)
-	"""By the number in O.bodies of each polytope that *append* or *split* made: the normals of its planes in its own axes, and the joint that made each."""
+	"""By the number in O.bodies of each polytope that *append* or *split* made: the normals of its planes in its own axes, and the joint
+	that made each."""
 
 	def append(self, jointMaterials=None, **body):
 		"""Adds the rock to the scene: a body for each of *bodies*, a clump where it has several blocks.
 
 		Mass and inertia of a clump are the sums over its blocks, which do not overlap. There are no contacts between blocks of one clump.
 
-		A material belongs to the faces that its joint has made: a contact that ends and is made again, with the same block or another, has that of the face which it
-		lies on (Polytope.faceMaterials).
+		A material belongs to the faces that its joint has made: a contact that ends and is made again, with the same block or another, has
+		that of the face which it lies on (Polytope.faceMaterials).
 
-		:param jointMaterials: for each of *jointSets* (for each set of a list of joints) the RockJointMat of its joints, by index or label in O.materials or itself; None among them: the body's own
+		:param jointMaterials: for each of *jointSets* (for each set of a list of joints) the RockJointMat of its joints, by index or label
+		    in O.materials or itself; None among them: the body's own
 		:param body: arguments of *fromHalfSpaces*: material, fixed, color …
 		:returns: numbers in O.bodies, in the order of *bodies*: of the body, or of the clump
-		:raises ValueError: naming *jointMaterials*: not one for each of *jointSets*, no RockJointMat, or stiffer than the body's own material, which sets the
-		    time step before blocks touch
+		:raises ValueError: naming *jointMaterials*: not one for each of *jointSets*, no RockJointMat, or stiffer than the body's own
+		    material, which sets the time step before blocks touch
 		"""
 		chosen = None if jointMaterials is None else materialsOfFaces(jointMaterials, self.entries, body.get('material', -1))
 		given = body.get('color')
@@ -102,7 +105,8 @@ class JointedRock:
 		return ids
 
 	def jointsOfFaces(self, body):
-		"""For each plane in the normals of the body's shape the number of the joint that made it; −1: the region's, or a body that is none of this rock's.
+		"""For each plane in the normals of the body's shape the number of the joint that made it; −1: the region's, or a body that is none
+		of this rock's.
 
 		After *append*; ``polytope.picture('joints.png', colorBy=rock.jointsOfFaces)`` colours faces by it. Faces that *polytope.split* makes
 		have none, what it leaves of others keeps theirs.
@@ -112,7 +116,8 @@ class JointedRock:
 		return jointsOfFaces(self, body)
 
 	def setsOfFaces(self, body):
-		"""For each plane in the normals of the body's shape the number of the set in *jointSets* whose joint made it; −1 where *jointsOfFaces* has −1."""
+		"""For each plane in the normals of the body's shape the number of the set in *jointSets* whose joint made it; −1 where
+		*jointsOfFaces* has −1."""
 		return setsOf(self, jointsOfFaces(self, body))
 
 	def contactJoints(self):
@@ -151,20 +156,22 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	A joint that ends in the rock cuts the blocks that it reaches into along its whole plane. What it separates only in part is one body, by default:
 	its blocks move together. Pieces that make one convex block are put together again.
 
-	In the plane (*normals* of two components) x is horizontal and y up, blocks are polygons, and joints lines as the section shows them: *dip* is the apparent one, *dipDirection* π/2 (it falls towards x)
-	or 3π/2, *spacing* and *p32* distance and length per area (P21), discs are segments of twice their *radius*, *fisher* the κ of von Mises' distribution, and z of points does not count.
+	In the plane (*normals* of two components) x is horizontal and y up, blocks are polygons, and joints lines as the section shows them:
+	*dip* is the apparent one, *dipDirection* π/2 (it falls towards x) or 3π/2, *spacing* and *p32* distance and length per area (P21),
+	discs are segments of twice their *radius*, *fisher* the κ of von Mises' distribution, and z of points does not count.
 
-	:param normals: (n, 3) outward normals of the region, of any length [-], in the plane (n, 2); for a region that is not convex a list of those of convex parts, which
-	    may share faces and must not overlap
+	:param normals: (n, 3) outward normals of the region, of any length [-], in the plane (n, 2); for a region that is not convex a list of
+	    those of convex parts, which may share faces and must not overlap
 	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}; for several parts a list of those
-	:param jointSets: sequence of *JointSet*, *Joint*, and lists of *Joint*, as *readJoints* returns. A list counts as one set for each value of *Joint.set* in it, numbers in ascending order and then names in
-	    alphabetical order: so many entries have *jointMaterials*, *sets* and what *keyBlocks* takes by set
+	:param jointSets: sequence of *JointSet*, *Joint*, and lists of *Joint*, as *readJoints* returns. A list counts as one set for each
+	    value of *Joint.set* in it, numbers in ascending order and then names in alphabetical order: so many entries have *jointMaterials*,
+	    *sets* and what *keyBlocks* takes by set
 	:param float smallest: inscribed radius [m] below which no piece is cut off: the block stays whole there; default a hundredth
 	    of the smallest spacing (1/P32) or of the region's own inscribed radius
 	:param int seed: of the random places, radii and normals
 	:param str incomplete: what becomes of blocks that a joint separates only in part: 'clump', they are one body; 'cut', each is a body, as if joints
-	    went on to the faces of the blocks that they reach into (Boon et al. 2015). Either way rock goes on across the faces that parts of the region share, except along a joint
-	    (with 'cut' along all of the plane of a joint)
+	    went on to the faces of the blocks that they reach into (Boon et al. 2015). Either way rock goes on across the faces that parts of
+	    the region share, except along a joint (with 'cut' along all of the plane of a joint)
 	:returns: *JointedRock*; with a warning where none of the joints reaches into the region
 	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 500 000
 	    blocks, *smallest* negative or above the region's inscribed radius, *seed* negative

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Blocks that can leave a rock mass through a free face, and their factor of safety by limit equilibrium.
 
-Goodman & Shi (1985), Block Theory and Its Application to Rock Engineering: a block can move along s if s leads into no joint face. Under its weight it
-falls, slides on one face or on two (Warburton 1981, Rock Mech. Rock Eng. 14:109-131); at most one of these is possible.
+Goodman & Shi (1985), Block Theory and Its Application to Rock Engineering: a block can move along s if s leads into no joint face. Under
+its weight it falls, slides on one face or on two (Warburton 1981, Rock Mech. Rock Eng. 14:109-131); at most one of these is possible.
 """
 
 import dataclasses
@@ -43,10 +43,11 @@ class KeyBlock:
 
 @namedArguments
 def keyBlocks(rock, free, frictionAngle, cohesion=0.0, density=2600.0, gravity=(0, 0, -9.81)):
-	"""Blocks of a jointed rock that would leave it through free faces of the region under their weight: ``polytope.keyBlocks(rock, (0, 0, -1), radians(35))``.
+	"""Blocks of a jointed rock that would leave it through free faces of the region under their weight:
+	``polytope.keyBlocks(rock, (0, 0, -1), radians(35))``.
 
-	Joints with friction and cohesion and without tensile strength; each block alone, its neighbours at rest, without rotation. Blocks at faces of the region that are not free go on beyond
-	it and do not move. Bodies of several blocks are left out.
+	Joints with friction and cohesion and without tensile strength; each block alone, its neighbours at rest, without rotation. Blocks at
+	faces of the region that are not free go on beyond it and do not move. Bodies of several blocks are left out.
 
 	:param JointedRock rock: what jointedRock made
 	:param free: outward normal of the free face, or a list of such: of a tunnel's roof (0, 0, −1)

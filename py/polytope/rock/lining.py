@@ -92,9 +92,10 @@ def lining(
 	"""A lining, or a beam: segments along a line of points, bonded to each other as an elastic beam of rectangular section:
 	``polytope.lining([(0, 0), (4, 0)], thickness=0.2, youngsModulus=3e10, segmentLength=0.25)``.
 
-	It is put into O.bodies, and touches blocks as any body does: density, friction and the stiffness of contacts with blocks are those of its material.
-	No segment is fixed: ``O.bodies[lining.ids[0]].dynamic = False`` holds the first one. With *adhesion* it is also bonded to all blocks that touch it. It is without force as it is made. Set O.engines first: its bonds are in the engine
-	PolytopeBonds. docs/support.md has the equations.
+	It is put into O.bodies, and touches blocks as any body does: density, friction and the stiffness of contacts with blocks are those of
+	its material. No segment is fixed: ``O.bodies[lining.ids[0]].dynamic = False`` holds the first one. With *adhesion* it is also bonded to
+	all blocks that touch it. It is without force as it is made. Set O.engines first: its bonds are in the engine PolytopeBonds.
+	docs/support.md has the equations.
 
 	:param points: (n, 2) corners of the line, a lining of polygons; or (n, 3), one of polyhedra, all in one plane normal to *axis* [m]
 	:param float thickness: of the section, in the plane of the line [m]
@@ -102,7 +103,8 @@ def lining(
 	:param float poissonsRatio: of the shear modulus G = E/(2 (1 + ν)) [-]
 	:param float width: of the section, along *axis*; half of it lies on each side of the points [m]. For a lining of polygons it is their thickness
 	:param Vector3 axis: across the plane of the line, needed for (n, 3) points: seen against it, the left of the line is on the left
-	:param side: where the thickness lies, seen along the line: 'left', 'right' or 'middle'. The inside of a tunnel whose points go round anticlockwise is left
+	:param side: where the thickness lies, seen along the line: 'left', 'right' or 'middle'. The inside of a tunnel whose points go round
+	    anticlockwise is left
 	:param bool closed: the last point is joined to the first one by a segment, as in a ring
 	:param float segmentLength: the line between two points is divided into equal segments not longer than this [m]; default one segment
 	:param float tensileStrength: tension at the edge of a joint, N/A + M/W, at which the joint breaks [Pa]; default it does not

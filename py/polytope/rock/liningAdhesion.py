@@ -15,8 +15,8 @@ __all__ = ['Adhesion', 'blocksNear', 'positive']
 
 @dataclasses.dataclass(frozen=True)
 class Adhesion:
-	"""Strength with which a lining sticks to the blocks that it lies on, as sprayed concrete does, until it fails. Its stiffnesses and its friction angle are
-	those of the joint between the two RockJointMats."""
+	"""Strength with which a lining sticks to the blocks that it lies on, as sprayed concrete does, until it fails. Its stiffnesses and its
+	friction angle are those of the joint between the two RockJointMats."""
 
 	tensileStrength: float
 	"""Strength against the stress normal to the face, bending included [Pa]; infinity: does not fail."""

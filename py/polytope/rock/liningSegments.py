@@ -14,7 +14,8 @@ sides = {'left': (0, 1), 'right': (-1, 0), 'middle': (-0.5, 0.5)}
 """Where both faces lie, to the left of the points, in thicknesses."""
 
 outOfPlane = 1e-6
-"""Tolerance on a point of the line, as a part of the line's extent: how far it may lie out of the line's plane, for coordinates written with six digits."""
+"""Tolerance on a point of the line, as a part of the line's extent: how far it may lie out of the line's plane, for coordinates written
+with six digits."""
 
 sharpest = math.radians(90)
 """Largest turn of the line at a point [rad]: beyond it a joint that is cut along the bisector is no section of a beam."""

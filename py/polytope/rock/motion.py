@@ -13,9 +13,11 @@ from ..scene.movers import partsOf
 __all__ = ['Motion']
 
 far = 0.25
-"""Part of the way that counts as failure, from which on a body that moves faster and faster has failed: some ten times what elastic joints give way."""
+"""Part of the way that counts as failure, from which on a body that moves faster and faster has failed: some ten times what elastic joints
+give way."""
 faster = 1.05
-"""Least ratio of the ways in two of three or four equal parts of a trial, one after the other, where a body moves faster and faster: a steady speed has 1, a steady acceleration from rest 1.4 at least."""
+"""Least ratio of the ways in two of three or four equal parts of a trial, one after the other, where a body moves faster and faster: a
+steady speed has 1, a steady acceleration from rest 1.4 at least."""
 unmoved = 1e-6
 """Way over that which counts as failure, up to which a body is at rest, whatever its speed."""
 early = 0.3
@@ -29,9 +31,11 @@ grazing = 0.1
 class Motion:
 	"""Follows bodies from look to look of a trial, at equal numbers of steps.
 
-	On the ways s of a mass that begins to move its bodies gain the work P = Σ F·s of their mean resultant forces F, in which vibrations cancel, and its joints take D = −Σ S·u by friction, with shear forces S and slips u of
-	one side against the other. With strengths that are k times as large it would gain P + D − k D, as long as normal forces stay what they are, so k = 1 + P/D would just hold it (the kinematic theorem of limit analysis). Exact for one
-	block on a plane; where normal forces depend on the strength, or blocks topple, it is an estimate.
+	On the ways s of a mass that begins to move its bodies gain the work P = Σ F·s of their mean resultant forces F, in which vibrations
+	cancel, and its joints take D = −Σ S·u by friction, with shear forces S and slips u of one side against the other. With strengths that
+	are k times as large it would gain P + D − k D, as long as normal forces stay what they are, so k = 1 + P/D would just hold it (the
+	kinematic theorem of limit analysis). Exact for one block on a plane; where normal forces depend on the strength, or blocks topple, it
+	is an estimate.
 
 	:param watched: ids of the bodies
 	:param limits: way of each that counts as failure [m]
@@ -47,7 +51,8 @@ class Motion:
 		"""D [J], up to this time [s]."""
 		self.began = self.now = placesById()
 		self.touched, self.since = _touching(), (0, set())
-		"""Pairs of bodies that touched when it began, or long since, by half or a quarter of the looks: what still moves faster and faster is not stopped by them; and those that touched at a look, with its number."""
+		"""Pairs of bodies that touched when it began, or long since, by half or a quarter of the looks: what still moves faster and faster
+		is not stopped by them; and those that touched at a look, with its number."""
 
 	def look(self):
 		self.parts.append(np.linalg.norm((placesById() - self.began)[self.watched], axis=1) / self.limits)
@@ -62,7 +67,8 @@ class Motion:
 		return float(np.abs(self.parts[-1] - self.parts[max(0, len(self.parts) - looks)]).max())
 
 	def speedsUp(self):
-		"""Whether a body has moved faster and faster all the while: its joints lack little of what would hold it, less than what counts as an unbalanced force."""
+		"""Whether a body has moved faster and faster all the while: its joints lack little of what would hold it, less than what counts as
+		an unbalanced force."""
 		return bool((self._speeding(3) & (self.parts[-1] > unmoved)).any())
 
 	def limit(self, factor):
@@ -87,8 +93,8 @@ class Motion:
 		return (ways[1:] > faster * np.maximum(ways[:-1], 0)).all(axis=0)
 
 	def _isStopped(self, k):
-		"""Whether body k meets another one, which it has not touched for long and which does not move with it; or it may be: a bolt or a bond joins it, or what moves with it, and may pull
-		more the farther it goes. A bolt across a joint pulls not at all at first."""
+		"""Whether body k meets another one, which it has not touched for long and which does not move with it; or it may be: a bolt or a
+		bond joins it, or what moves with it, and may pull more the farther it goes. A bolt across a joint pulls not at all at first."""
 		way = (placesById() - self.began)[self.watched]
 		length = np.linalg.norm(way[k])
 		along = way[k] / length

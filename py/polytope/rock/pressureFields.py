@@ -9,8 +9,8 @@ from scipy.spatial import Delaunay, QhullError
 __all__ = ['Piece', 'alongALine', 'belowALevel', 'belowASection', 'belowASurface', 'sectionOf']
 
 thin = 1e-9
-"""Distance as a part of the points' extent: points that are less apart are in one place, or in one vertical plane, to the rounding of points that were
-computed."""
+"""Distance as a part of the points' extent: points that are less apart are in one place, or in one vertical plane, to the rounding of
+points that were computed."""
 
 
 class Piece(NamedTuple):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Distributions of the radii of joints.
 
-A disc is the more likely to reach into a region the larger it is. So radii are drawn weighted by their powers 0, 1 and 2 (jointSets.py), which each of
-these distributions gives in closed form.
+A disc is the more likely to reach into a region the larger it is. So radii are drawn weighted by their powers 0, 1 and 2 (jointSets.py),
+which each of these distributions gives in closed form.
 """
 
 import math

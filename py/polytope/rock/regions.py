@@ -30,8 +30,8 @@ gap = 1e-3
 missed = 1e-5
 """Tolerance on the volume of the parts, as a part of the mesh's: how far they may differ. Beyond it, faces cross."""
 flat = 1e-6
-"""Distance as a part of the mesh's extent: triangles that lie in one plane to within it are put into that plane. In a file they miss it by the last digit,
-and parts as thin as this would be cut."""
+"""Distance as a part of the mesh's extent: triangles that lie in one plane to within it are put into that plane. In a file they miss it by
+the last digit, and parts as thin as this would be cut."""
 around = 0.1
 """Margin as a part of the mesh's extent: how far the box that is cut reaches beyond the mesh, so that none of its faces is near one of the mesh's."""
 needle = 1e-12
@@ -171,7 +171,8 @@ def _flattened(triangles, areas, middle, apart):
 
 
 def _windings(point, triangles):
-	"""How often a surface winds round a point: the sum of solid angles over 4π (van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng. 30:125-126)."""
+	"""How often a surface winds round a point: the sum of solid angles over 4π (van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng.
+	30:125-126)."""
 	a, b, c = (triangles[:, k] - point for k in range(3))
 	la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
 	over = np.einsum('ij,ij->i', a, np.cross(b, c))

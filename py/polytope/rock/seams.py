@@ -14,7 +14,8 @@ from .joint import asArguments
 __all__ = ['joinedAcrossSeams']
 
 onePlane = 1e-6
-"""Difference of unit normals, and of offsets over the region's radius, below which two planes may be a seam. It only chooses the blocks that are looked at; the core decides by its own tolerance, which is smaller."""
+"""Difference of unit normals, and of offsets over the region's radius, below which two planes may be a seam. It only chooses the blocks
+that are looked at; the core decides by its own tolerance, which is smaller."""
 
 
 def joinedAcrossSeams(made, bodyOf, cuts, region, bridge):

@@ -44,18 +44,22 @@ sameMass = 1e-6
 def water(level=None, density=1000, pressures=None, faces=None):
 	"""Water presses on faces of blocks, in joints and outside: ``polytope.water(level=12)``. Set O.engines first.
 
-	Each face below the water table has the pressure density · g · depth, wherever the body moves, integrated exactly over the part that is below: faces in a joint from both sides (uplift), faces
-	outside as a lake does (buoyancy). The pressure in a joint is the same however far it is open. Each face has one water: give several calls the faces that each is for. In an engine *PolytopeWater*, which is put between InteractionLoop
-	and NewtonIntegrator and is saved with the scene; docs/water.md has examples.
+	Each face below the water table has the pressure density · g · depth, wherever the body moves, integrated exactly over the part that is
+	below: faces in a joint from both sides (uplift), faces outside as a lake does (buoyancy). The pressure in a joint is the same however
+	far it is open. Each face has one water: give several calls the faces that each is for. In an engine *PolytopeWater*, which is put
+	between InteractionLoop and NewtonIntegrator and is saved with the scene; docs/water.md has examples.
 
-	:param level: height of the water table [m], counted against gravity; or three or more points of it (n, 3): in a vertical plane they are a section, straight between
-	    them and level beyond its ends; otherwise triangles between them, which must reach over all bodies that can move. Points may have two components in scenes of polygons
+	:param level: height of the water table [m], counted against gravity; or three or more points of it (n, 3): in a vertical plane they are
+	    a section, straight between them and level beyond its ends; otherwise triangles between them, which must reach over all bodies that
+	    can move. Points may have two components in scenes of polygons
 	:param float density: of the water [kg/m³], for *level*
-	:param pressures: in place of *level*: [(point, pressure [Pa]), …] in order along a joint: linear between the points, constant across their line and beyond its ends
-	:param faces: function of a *Face* (body, plane, normal, centre, area), called once for each: whether it has this water; default all faces of all polytopes, of later ones too
+	:param pressures: in place of *level*: [(point, pressure [Pa]), …] in order along a joint: linear between the points, constant across
+	    their line and beyond its ends
+	:param faces: function of a *Face* (body, plane, normal, centre, area), called once for each: whether it has this water; default all
+	    faces of all polytopes, of later ones too
 	:returns: the engine; ``engine.load(id)`` has force and moment on a body, ``engine.dead = True`` takes the water away
-	:raises ValueError: naming the argument and the remedy: not finite, no gravity, nothing that gets wet, water that stands above the ground in joints, faces on which another water presses
-	    already, clumps of parts that overlap
+	:raises ValueError: naming the argument and the remedy: not finite, no gravity, nothing that gets wet, water that stands above the
+	    ground in joints, faces on which another water presses already, clumps of parts that overlap
 	"""
 	place = placeOfForces('water acts')
 	if O.periodic:

@@ -41,15 +41,16 @@ def _stepsOfPair(bases, one, other):
 
 
 def ownContactsOf(one, other):
-	"""Names of the contact functors that extensions have for two classes of shapes, by their names, or for the nearest that these are derived from."""
+	"""Names of the contact functors that extensions have for two classes of shapes, by their names, or for the nearest that these are
+	derived from."""
 	steps = {made.__name__: _stepsOfPair(made().bases, one, other) for made in ownFunctors(PolytopeGeomFunctor)}
 	fitting = {name: count for name, count in steps.items() if count is not None}
 	return [name for name, count in fitting.items() if count == min(fitting.values())]
 
 
 def ownContacts(shapes, functors):
-	"""Contact functors of extensions for pairs of these classes of shapes (names) that none of *functors* is made for. Where several are made for the same pair the
-	choice is the user's, and none of them is among these."""
+	"""Contact functors of extensions for pairs of these classes of shapes (names) that none of *functors* is made for. Where several are
+	made for the same pair the choice is the user's, and none of them is among these."""
 	taken = {tuple(sorted(functor.bases)) for functor in functors}
 	pairs = {}
 	for made in ownFunctors(PolytopeGeomFunctor):
@@ -75,8 +76,8 @@ def ownBounds(shapes, functors):
 
 
 def ownLaws(contacts, physics, laws):
-	"""Laws of extensions for just what these contact functors and Ip2 functors make and none of *laws* is made for. Where several are, the choice is the user's, and
-	none of them is among these."""
+	"""Laws of extensions for just what these contact functors and Ip2 functors make and none of *laws* is made for. Where several are, the
+	choice is the user's, and none of them is among these."""
 	geoms, phys = ({type(functor).__name__.rsplit('_', 1)[-1] for functor in functors} for functors in (contacts, physics))
 	taken, pairs = [law.bases for law in laws], {}
 	for made in ownFunctors(LawFunctor):

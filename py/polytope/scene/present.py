@@ -49,8 +49,8 @@ def geometryFunctors(loops=None):
 
 
 def contactSettings(loops=None):
-	"""The functor whose attributes are the settings of all contacts of a scene with these loops, default the present one; None where it has none, and the
-	defaults hold."""
+	"""The functor whose attributes are the settings of all contacts of a scene with these loops, default the present one; None where it has
+	none, and the defaults hold."""
 	return next((functor for functor in geometryFunctors(loops) if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom)), None)
 
 
@@ -156,7 +156,8 @@ class EngineOfScene:
 		return found
 
 	def make(self, act, making):
-		"""The scene's engine, or a new one, with what *making*, a function of the engine, returns. A new one is in O.engines only if that raises nothing.
+		"""The scene's engine, or a new one, with what *making*, a function of the engine, returns. A new one is in O.engines only if that
+		raises nothing.
 
 		:param str act: what acts in it, with its verb, for the messages
 		:raises ValueError: naming *engines* if there is no place for a new one

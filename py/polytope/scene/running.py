@@ -76,7 +76,8 @@ def _untilTrue(until, limit, every, show):
 
 
 def _steps(count, show, ended=lambda: False):
-	"""Runs this number of steps in parts, and tells *show* the number of each. Returns whether all were taken, or *ended()*: else an engine has paused."""
+	"""Runs this number of steps in parts, and tells *show* the number of each. Returns whether all were taken, or *ended()*: else an engine
+	has paused."""
 	end, size = O.iter + count, 1
 	while O.iter < end and not ended():
 		first, start, now = O.iter, time.perf_counter(), int(min(size, end - O.iter))

@@ -22,7 +22,8 @@ notConvex = 1e-3
 singlePrecision = 1e-6
 """Distance over the extent up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
 facetNoise = 4.0
-"""Distance over the largest error of a coordinate up to which points count as coplanar, where that is more: they are rounded in three coordinates; and a margin."""
+"""Distance over the largest error of a coordinate up to which points count as coplanar, where that is more: they are rounded in three
+coordinates; and a margin."""
 mostNoise = 0.01
 """The most that this distance may be, over the extent."""
 farOut = 1000.0
@@ -38,18 +39,18 @@ named = 3
 def fromMesh(path, scale=1.0, parts=None, **body):
 	"""Convex hull of a mesh file's vertices, as a body at its centroid; or with *parts* a list of convex bodies.
 
-	Formats: STL, OBJ, PLY, OFF, GLB, 3MF … (trimesh); GTS; VTK's own; Gmsh, TetGen, Abaqus, Medit … (meshio). For a mesh of volumes, the surface is taken.
-	A warning tells of a mesh that is not closed, not convex, or several bodies, and of a file whose numbers have too few digits where the mesh is. A
-	container (funnel, cup, drum) is read by *facets*.
+	Formats: STL, OBJ, PLY, OFF, GLB, 3MF … (trimesh); GTS; VTK's own; Gmsh, TetGen, Abaqus, Medit … (meshio). For a mesh of volumes, the
+	surface is taken. A warning tells of a mesh that is not closed, not convex, or several bodies, and of a file whose numbers have too few
+	digits where the mesh is. A container (funnel, cup, drum) is read by *facets*.
 
 	:param path: the file
 	:param float scale: factor on all coordinates, for files in other units than metres
-	:param parts: 'objects': the file's bodies, as a list: its objects (lines ``o`` of OBJ, solids of STL, geometries of GLB and 3MF, volumes of Gmsh), and in
-	    each of these the pieces that are closed by themselves, which may share corners, edges and faces. For one that is not convex or
-	    not closed, the hull is taken, with a warning; a single one is refused.
-	    Or the number of convex parts at most, into which CoACD cuts the mesh, approximately: ``polytope.clump(polytope.fromMesh('horse.obj', parts=20))``.
-	    CoACD is optional: ``pip install --no-deps --target ~/coacd coacd``, and PYTHONPATH=~/coacd. *center* and *orientation* are of the whole. A mesh is cut once: further calls, also
-	    with another *scale*, make copies of the same parts.
+	:param parts: 'objects': the file's bodies, as a list: its objects (lines ``o`` of OBJ, solids of STL, geometries of GLB and 3MF,
+	    volumes of Gmsh), and in each of these the pieces that are closed by themselves, which may share corners, edges and faces. For one
+	    that is not convex or not closed, the hull is taken, with a warning; a single one is refused. Or the number of convex parts at most,
+	    into which CoACD cuts the mesh, approximately: ``polytope.clump(polytope.fromMesh('horse.obj', parts=20))``. CoACD is optional:
+	    ``pip install --no-deps --target ~/coacd coacd``, and PYTHONPATH=~/coacd. *center* and *orientation* are of the whole. A mesh is cut
+	    once: further calls, also with another *scale*, make copies of the same parts.
 	:raises ImportError: if CoACD is needed and not installed
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* if it is none or the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive; *parts*

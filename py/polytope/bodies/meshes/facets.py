@@ -20,8 +20,8 @@ flat = 1e-9
 def facets(path, scale=1.0, shift=(0, 0, 0), **body):
 	"""The triangles of a mesh file as YADE's facets: a funnel, cup or drum as a program for drawing writes it, or ground.
 
-	``ids = O.bodies.append(polytope.facets('funnel.stl', scale=1e-3))``. Bodies may be on both sides. The mesh need not be closed or convex. To move it, give *ids*
-	to an engine (``RotationEngine(ids=ids, …)``).
+	``ids = O.bodies.append(polytope.facets('funnel.stl', scale=1e-3))``. Bodies may be on both sides. The mesh need not be closed or
+	convex. To move it, give *ids* to an engine (``RotationEngine(ids=ids, …)``).
 
 	:param path: the file, of any format that fromMesh reads
 	:param float scale: factor on all coordinates, for files in other units than metres

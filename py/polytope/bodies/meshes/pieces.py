@@ -145,7 +145,8 @@ def _bySides(points, faces):
 
 
 def _partners(points, faces, meeting, turned):
-	"""Pairs of the sides (three times the triangle plus the number of its edge) that meet at one edge and bound the same space; [] if they do not fit."""
+	"""Pairs of the sides (three times the triangle plus the number of its edge) that meet at one edge and bound the same space; [] if they
+	do not fit."""
 	if len(meeting) % 2:
 		return []
 	triangles, own = faces[meeting // 3], meeting % 3

@@ -84,7 +84,8 @@ def readSmesh(path):
 
 
 def readGts(path):
-	"""Reads a file of the GNU Triangulated Surface library: points, edges, triangles by their edges. (YADE's module gts leaves the process in another locale.)"""
+	"""Reads a file of the GNU Triangulated Surface library: points, edges, triangles by their edges. (YADE's module gts leaves the process
+	in another locale.)"""
 	lines = _words(path, '#', '!')
 	try:
 		count, edges, faces = map(int, lines[0][:3])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Shapes from and to text files: YADE's own format for polyhedra, Neper's tessellations (.tess), Rockable's shapes (.shp), blocks of COMPAS (.json)."""
+"""Shapes from and to text files: YADE's own format for polyhedra, Neper's tessellations (.tess), Rockable's shapes (.shp), blocks of COMPAS
+(.json)."""
 
 import numbers
 import os
@@ -25,10 +26,11 @@ def readShapes(path, scale=1, shift=(0, 0, 0), names=None, parts=None, rounded=N
 	- ``.tess``: cells of a Neper tessellation, of its dimension 3 as polyhedra, 2 as polygons. Cells share faces exactly; empty ones, which Neper may
 	  write, are left out.
 	- ``.shp``: shapes of a Rockable library, convex hulls with faces moved out by the shape's radius, to where Rockable's faces are (edges,
-	  there round, are sharp; *rounded* keeps them); a flat shape is a plate of twice that thickness. They lie where their vertices do. A shape of one vertex
-	  is a sphere of YADE's; one that is marked as a surface, such as a container, a list of plates, one for each face; rods and what else is no body are left
-	  out, with a warning that names them.
-	- ``.json``: blocks of masonry from COMPAS (compas_assembly, compas_dem, compas_cra, or a list of meshes), convex hulls; supports are *fixed*, unless that is given.
+	  there round, are sharp; *rounded* keeps them); a flat shape is a plate of twice that thickness. They lie where their vertices do. A
+	  shape of one vertex is a sphere of YADE's; one that is marked as a surface, such as a container, a list of plates, one for each face;
+	  rods and what else is no body are left out, with a warning that names them.
+	- ``.json``: blocks of masonry from COMPAS (compas_assembly, compas_dem, compas_cra, or a list of meshes), convex hulls; supports are
+	  *fixed*, unless that is given.
 	- names of meshes (.stl, .obj, .msh …) are refused: fromMesh reads them.
 	- any other name: polyhedra in YADE's text format, from writeShapes or from YADE's export.textPolyhedra, as convex hulls.
 
@@ -38,8 +40,8 @@ def readShapes(path, scale=1, shift=(0, 0, 0), names=None, parts=None, rounded=N
 	:param float scale: factor on all coordinates, for files in other units than metres
 	:param shift: is added to all coordinates, after scale [m]
 	:param names: of a Rockable library, those to be read, in this order; default all
-	:param int parts: of a Rockable library: number of convex parts at most into which CoACD cuts a shape that is not convex, as fromMesh does. The list
-	    of its parts is then in its place in what is returned, for polytope.clump, cloud or pack
+	:param int parts: of a Rockable library: number of convex parts at most into which CoACD cuts a shape that is not convex, as fromMesh
+	    does. The list of its parts is then in its place in what is returned, for polytope.clump, cloud or pack
 	:param rounded: of a Rockable library: a class derived from Polytope with the attribute *radius*, as the RoundedPolytope of
 	    docs/extending.md. Bodies keep the radius of their shape then: edges are round, volume and mass those of the sum with the ball. Plates
 	    and spheres are as without it

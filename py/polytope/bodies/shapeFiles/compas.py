@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Blocks of masonry from COMPAS, as its json_dump writes them (https://compas.dev): blocks are meshes, whose interfaces are not read.
 
-- assemblies of compas_assembly and compas_cra: a graph whose nodes have a *block*, and *is_support*; before COMPAS 0.18 a graph and the blocks beside it;
+- assemblies of compas_assembly and compas_cra: a graph whose nodes have a *block*, and *is_support*; before COMPAS 0.18 a graph and the
+  blocks beside it;
 - models of compas_dem and compas_model: *elements* with a *geometry*, and *is_support*;
 - a list of meshes.
 

@@ -16,12 +16,13 @@ readers = {'table': tables.joints, 'blockGen': tables.blockGen, 'fracMan': fracM
 def readJoints(path, format=None, scale=1):
 	"""Joints of a text file, for jointedRock: ``polytope.jointedRock(normals, offsets, polytope.readJoints('joints.csv'))``.
 
-	- ``'table'``: a first line with the names of columns, then a joint a line, separated by commas, semicolons or tabs. Columns *dip*, *dip_direction* [degrees],
-	  *x*, *y*, *z* [m]: x east, y north, z up; *radius* or *diameter* [m]: without it, or where it is empty, a plane through the whole rock; *set*,
-	  a whole number or a name. Others are not read.
+	- ``'table'``: a first line with the names of columns, then a joint a line, separated by commas, semicolons or tabs. Columns *dip*,
+	  *dip_direction* [degrees], *x*, *y*, *z* [m]: x east, y north, z up; *radius* or *diameter* [m]: without it, or where it is empty, a
+	  plane through the whole rock; *set*, a whole number or a name. Others are not read.
 	- ``'blockGen'``: what YADE's BlockGen reads, separated by semicolons after a first line that is passed over. Of 16 or 17 columns
-	  (*filenameProbabilistic*) rectangles: dip, dip direction, centre, half-lengths along strike and along dip; of 11 (*filenamePersistentPlanes*) sets of planes
-	  through the origin: dip, dip direction, spacing. Planes are where BlockGen puts them, in its axes: x north, y east, z down. Properties are not read.
+	  (*filenameProbabilistic*) rectangles: dip, dip direction, centre, half-lengths along strike and along dip; of 11
+	  (*filenamePersistentPlanes*) sets of planes through the origin: dip, dip direction, spacing. Planes are where BlockGen puts them, in
+	  its axes: x north, y east, z down. Properties are not read.
 	- ``'fracMan'``: polygons of FracMan's ``.fab`` text, with their set. Tessellated fractures give one joint for each triangle.
 	- ``'dfnWorks'``: polygons of dfnWorks (``polygons.dat``: ``nPolygons: …``, then a polygon a line: number of corners, {x, y, z} …).
 

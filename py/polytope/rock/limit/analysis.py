@@ -34,7 +34,8 @@ class LimitTrial:
 
 @dataclasses.dataclass
 class LimitAnalysis(Failure):
-	"""What *polytope.limitAnalysis* found. Displacements and rotations are those with which the mass begins to fail, of a size such that the block that goes and turns most for its size moves by a fiftieth of it."""
+	"""What *polytope.limitAnalysis* found. Displacements and rotations are those with which the mass begins to fail, of a size such that
+	the block that goes and turns most for its size moves by a fiftieth of it."""
 
 	trials: list
 	"""All *LimitTrial* in the order in which they were made."""
@@ -46,22 +47,32 @@ class LimitAnalysis(Failure):
 def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	"""The number by which all strengths of joints can be divided until no forces within them hold the blocks: ``print(polytope.limitAnalysis())``.
 
-	Limit analysis of rigid blocks (Livesley 1978; Ferris & Tin-Loi 2001; Portioli et al. 2014): no step is run, and the scene need not be at rest, only be appended, with O.engines for gravity. Joints are where faces of Polytopes lie on each
-	other; what blocks touch by edges and corners alone does not count. A joint bears forces at the corners of the common face: normal forces, down to the tensile strength times the area that
-	the corner stands for, and shear forces within Coulomb's cone with friction and cohesion. The scene stands where forces within these strengths balance weight, permanent forces (O.forces.setPermF) and water on
-	every block (static theorem). Else it fails, and the motion is found along with that (kinematic theorem). Second-order cones, not polygons in their place, solved by an interior-point method with the package python3-cvxopt.
+	Limit analysis of rigid blocks (Livesley 1978; Ferris & Tin-Loi 2001; Portioli et al. 2014): no step is run, and the scene need not be
+	at rest, only be appended, with O.engines for gravity. Joints are where faces of Polytopes lie on each other; what blocks touch by edges
+	and corners alone does not count. A joint bears forces at the corners of the common face: normal forces, down to the tensile strength
+	times the area that the corner stands for, and shear forces within Coulomb's cone with friction and cohesion. The scene stands where
+	forces within these strengths balance weight, permanent forces (O.forces.setPermF) and water on every block (static theorem). Else it
+	fails, and the motion is found along with that (kinematic theorem). Second-order cones, not polygons in their place, solved by an
+	interior-point method with the package python3-cvxopt.
 
-	A bolt that passes from block to block bears a tension up to what its steel (yieldForce) and grout hold, and its dowel across, all fully mobilised whatever its stiffness; these are not divided. A bond is a joint of its own strengths (both infinite: what it joins is one block).
+	A bolt that passes from block to block bears a tension up to what its steel (yieldForce) and grout hold, and its dowel across, all fully
+	mobilised whatever its stiffness; these are not divided. A bond is a joint of its own strengths (both infinite: what it joins is one
+	block).
 
-	Joints are perfectly plastic, as in limit equilibrium, so the strength is that of the material before failure, residual values do not count, and stiffnesses do not matter. With friction a joint that slips opens by tan φ times its slip
-	(associated flow): the theorems hold for no other. For rock that dilates less the factor is an upper estimate. Where blocks can open freely, as where they slide out of a slope, that does not matter. Where they jam it is too high: by 4 to 12 % for wedges on two planes, by a fifth for columns that topple and
-	rub against each other, without bound between fixed walls. Compare *polytope.keyBlocks*, or *polytope.factorOfSafety*, which has the dilation that the material has.
+	Joints are perfectly plastic, as in limit equilibrium, so the strength is that of the material before failure, residual values do not
+	count, and stiffnesses do not matter. With friction a joint that slips opens by tan φ times its slip (associated flow): the theorems
+	hold for no other. For rock that dilates less the factor is an upper estimate. Where blocks can open freely, as where they slide out of
+	a slope, that does not matter. Where they jam it is too high: by 4 to 12 % for wedges on two planes, by a fifth for columns that topple
+	and rub against each other, without bound between fixed walls. Compare *polytope.keyBlocks*, or *polytope.factorOfSafety*, which has the
+	dilation that the material has.
 
 	:param reduce: which strengths: of 'friction', 'cohesion' and 'tension'
 	:param float tolerance: width of the bracket over the factor
-	:param float most: factor at which to give up: what stands there has an infinite one, with no mode; and by which strengths are multiplied where it is below 1
+	:param float most: factor at which to give up: what stands there has an infinite one, with no mode; and by which strengths are
+	    multiplied where it is below 1
 	:returns: *LimitAnalysis*
-	:raises ValueError: naming the argument, or what in the scene is no rigid block with joints: bodies other than Polytopes, materials other than RockJointMat, bonds with one strength without a limit, bolts without one, blocks that no joint connects to a fixed one
+	:raises ValueError: naming the argument, or what in the scene is no rigid block with joints: bodies other than Polytopes, materials
+	    other than RockJointMat, bonds with one strength without a limit, bolts without one, blocks that no joint connects to a fixed one
 	:raises ImportError: python3-cvxopt is not installed
 	:raises RuntimeError: the scene does not stand with *most* times its strengths
 	"""

@@ -98,7 +98,8 @@ def _isRigid(bond):
 
 
 def _groups():
-	"""Ids of bodies and clumps that can move, in groups that bonds without a limit hold together; without those that such bonds hold to a fixed body."""
+	"""Ids of bodies and clumps that can move, in groups that bonds without a limit hold together; without those that such bonds hold to a
+	fixed body."""
 	movers = [body.id for body in O.bodies if body is not None and moverOf(body.id) == body.id]
 	row = {k: number for number, k in enumerate(movers)}
 	links = [(row[moverOf(bond.id1)], row[moverOf(bond.id2)]) for bond in presentBonds() if _isRigid(bond)]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bolts as plastic links between rigid blocks: a tension along the axis up to what steel and grout hold, and the dowel across it.
 
-A link is written as a corner of a joint (*Corners*) with a friction of −1: |t| ≤ 2 s − (n + s), n ≥ −s has |t| ≤ 2 s, and n, which acts on nothing, is bounded. The tension lies between 0 and T: half
-of T is a load, and the rest t between −T/2 and T/2.
+A link is written as a corner of a joint (*Corners*) with a friction of −1: |t| ≤ 2 s − (n + s), n ≥ −s has |t| ≤ 2 s, and n, which acts on
+nothing, is bounded. The tension lies between 0 and T: half of T is a load, and the rest t between −T/2 and T/2.
 """
 
 import dataclasses

@@ -3,11 +3,12 @@
 
 	minimise λ  with  A r = −load,  |t| ≤ μ n + c + λ a,  n ≥ −(σ + λ a),  λ ≥ 0
 
-for forces r = (n, t) at the corners of joints; a: part of the area that a corner stands for. The mass stands where λ is 0. The multipliers of equilibrium are the velocities of the blocks: how it fails
-where λ > 0 (static and kinematic theorem of limit analysis).
+for forces r = (n, t) at the corners of joints; a: part of the area that a corner stands for. The mass stands where λ is 0. The multipliers
+of equilibrium are the velocities of the blocks: how it fails where λ > 0 (static and kinematic theorem of limit analysis).
 
-Primal-dual path following with the scaling of Nesterov and Todd and Mehrotra's corrector, as in L. Vandenberghe (2010), The CVXOPT linear and quadratic cone program solvers; its equations are
-solved for the blocks' velocities, whose matrix is that of the stiffness of springs at the corners.
+Primal-dual path following with the scaling of Nesterov and Todd and Mehrotra's corrector, as in L. Vandenberghe (2010), The CVXOPT linear
+and quadratic cone program solvers; its equations are solved for the blocks' velocities, whose matrix is that of the stiffness of springs at
+the corners.
 """
 
 import dataclasses
@@ -28,8 +29,8 @@ balanced = 1e-6
 none = 1e-7
 """Least strength below which none is missing, in the units of *leastStrength*, where a mean block that is 1 % too weak lacks some 1e-3."""
 atLimit = 1e-5
-"""Least strength, in the units of *leastStrength*, below which a factor is the limit itself to 1e-4: there rounding may end the steps before the bounds meet, and the last
-point in equilibrium is the answer."""
+"""Least strength, in the units of *leastStrength*, below which a factor is the limit itself to 1e-4: there rounding may end the steps
+before the bounds meet, and the last point in equilibrium is the answer."""
 gap = 0.01
 """Relative difference of bounds on the least strength, at which it is known: it is above 0, and leads to the next factor."""
 
@@ -74,7 +75,8 @@ class _Program:
 	def factorise(self, scaling):
 		"""Solver of Aᵀ y + Gᵀ z = bx, A x = by, G x − W² z = bz: a function of (bx, its part of λ, by, bz).
 
-		Without λ, forces at a corner and its slip are as of a spring, H = Gᵀ W⁻² G. Its inverse, and what λ adds, are written out: terms of many orders of magnitude would cancel in numbers.
+		Without λ, forces at a corner and its slip are as of a spring, H = Gᵀ W⁻² G. Its inverse, and what λ adds, are written out: terms of
+		many orders of magnitude would cancel in numbers.
 		"""
 		friction, share, w = self.friction, self.share, scaling.w
 		round2, plain2 = scaling.size**2, 1 / scaling.plain**2

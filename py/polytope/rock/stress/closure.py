@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Blocks in the size that they have without load, so that their joints are closed by the stress where the blocks are.
 
-A joint under the pressure p is closed by p/kₙ; half of that belongs to either side if they are of one material, else to each side the part of its own stiffness. Each plane of
-a block that is part of a joint moves outwards by its part, p/(2 kₙ), and turns where p changes along it. So neighbours overlap by what gives
-the pressure at each place of the joint (contact model *foundation*), wherever joints meet and whatever their directions are.
+A joint under the pressure p is closed by p/kₙ; half of that belongs to either side if they are of one material, else to each side the part
+of its own stiffness. Each plane of a block that is part of a joint moves outwards by its part, p/(2 kₙ), and turns where p changes along
+it. So neighbours overlap by what gives the pressure at each place of the joint (contact model *foundation*), wherever joints meet and
+whatever their directions are.
 """
 
 import numpy as np

@@ -20,8 +20,8 @@ from ..region import areSeveral
 __all__ = ['ExcavatedRegion', 'Part', 'restsOf', 'together']
 
 thinnest = 0.01
-"""Least inscribed radius of what is cut off or left, over that of the block: such slivers bear no load and shorten the time step. More than a joint's closure, by which blocks that were
-cut along the region reach over its faces (*inSitu*)."""
+"""Least inscribed radius of what is cut off or left, over that of the block: such slivers bear no load and shorten the time step. More than
+a joint's closure, by which blocks that were cut along the region reach over its faces (*inSitu*)."""
 level = 1e-9
 """Sine of the angle up to which a plane is that of polygons."""
 touching = 1e-6
@@ -107,7 +107,8 @@ def _section(normals, limits, z):
 
 
 def restsOf(k, region):
-	"""What is left of a body or clump of polytopes outside of the region: a list of bodies, each a list of *Part*; empty: nothing; None: all, untouched."""
+	"""What is left of a body or clump of polytopes outside of the region: a list of bodies, each a list of *Part*; empty: nothing; None:
+	all, untouched."""
 	bodies = [O.bodies[part] for part in partsOf(k)]
 	if all(_isBeside(body, region) for body in bodies):
 		return None
@@ -149,7 +150,8 @@ def _partsOf(body, region):
 
 
 def _cells(body, faces, least):
-	"""Into which faces cut a convex body: ((normals, offsets, labels, a point inside), number of the body that it is a part of). About the body's centre."""
+	"""Into which faces cut a convex body: ((normals, offsets, labels, a point inside), number of the body that it is a part of). About the
+	body's centre."""
 	shape, state = body.shape, body.state
 	normals = [tuple(state.ori * one) for one in shape.normals]
 	offsets = [real(one) for one in shape.offsets]

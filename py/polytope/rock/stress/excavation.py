@@ -23,19 +23,23 @@ __all__ = ['excavate']
 
 @namedArguments
 def excavate(bodies=None, normals=None, offsets=None, over=0, cut=True):
-	"""Takes blocks away: ``polytope.excavate([4, 7], over=2000)``, or all that is in a region, such as a tunnel or a pit: ``polytope.excavate(normals=…, offsets=…, over=2000)``.
+	"""Takes blocks away: ``polytope.excavate([4, 7], over=2000)``, or all that is in a region, such as a tunnel or a pit:
+	``polytope.excavate(normals=…, offsets=…, over=2000)``.
 
-	Blocks that the region crosses are cut by its faces. What lies outside stays as one body, a clump where it is not convex, or several where the region goes through it; bodies that the
-	region leaves as they are keep their numbers, what is left of others gets new ones. Its contacts go on with their shear, slip, cohesion and bonds, its faces with their materials and joints. Of a block no
-	slivers are cut off or left whose inscribed radius is below a hundredth of its own. By a region, bodies that cannot move are neither cut nor taken.
+	Blocks that the region crosses are cut by its faces. What lies outside stays as one body, a clump where it is not convex, or several
+	where the region goes through it; bodies that the region leaves as they are keep their numbers, what is left of others gets new ones.
+	Its contacts go on with their shear, slip, cohesion and bonds, its faces with their materials and joints. Of a block no slivers are cut
+	off or left whose inscribed radius is below a hundredth of its own. By a region, bodies that cannot move are neither cut nor taken.
 
-	Blocks that vanish at once leave their neighbours with forces that are out of balance, so that these swing: a joint gets up to twice the change of its load. With *over* the forces that
-	what is taken exerts on what stays go on acting and fade to zero in so many steps: take five periods of the slowest swing or more. The rest of a block that is cut is held by the force and torque that
-	balance it, which fade likewise. An engine does it, before NewtonIntegrator in O.engines. It removes itself after the last step, is saved with the scene, and goes on when that is loaded. polytope.settle()
-	waits for it.
+	Blocks that vanish at once leave their neighbours with forces that are out of balance, so that these swing: a joint gets up to twice the
+	change of its load. With *over* the forces that what is taken exerts on what stays go on acting and fade to zero in so many steps: take
+	five periods of the slowest swing or more. The rest of a block that is cut is held by the force and torque that balance it, which fade
+	likewise. An engine does it, before NewtonIntegrator in O.engines. It removes itself after the last step, is saved with the scene, and
+	goes on when that is loaded. polytope.settle() waits for it.
 
 	:param bodies: ids; of a clump its own. They are taken whole
-	:param normals: (n, 3) outward normals of a region, of any length [-], in the plane (n, 2), too; for a region that is not convex a list of those of convex parts
+	:param normals: (n, 3) outward normals of a region, of any length [-], in the plane (n, 2), too; for a region that is not convex a list
+	    of those of convex parts
 	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}; for several parts a list of those
 	:param int over: steps in which the forces fade; 0: at once
 	:param bool cut: False: blocks are taken whole, if their centre is in the region

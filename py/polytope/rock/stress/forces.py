@@ -11,12 +11,14 @@ __all__ = ['less', 'loadsAtRest', 'removedForces', 'weightAndWater']
 
 
 def removedForces(removed):
-	"""id → (force [N], torque about its centre [N·m]) of contacts and bonds with the bodies *removed* (a set of ids), of bodies that stay and can move."""
+	"""id → (force [N], torque about its centre [N·m]) of contacts and bonds with the bodies *removed* (a set of ids), of bodies that stay
+	and can move."""
 	return _forces(lambda k: k not in removed and canMove(O.bodies[k]), lambda k: k in removed)
 
 
 def loadsAtRest(bodies):
-	"""id → (force, torque) that balances contacts, bonds, weight and water of bodies and clumps that can move; of a clump its parts each by themselves, and its weight."""
+	"""id → (force, torque) that balances contacts, bonds, weight and water of bodies and clumps that can move; of a clump its parts each by
+	themselves, and its weight."""
 	movers = [k for k in bodies if O.bodies[k].dynamic]
 	parts = {part for k in movers for part in partsOf(k)}
 	loads = weightAndWater(movers)

@@ -19,13 +19,15 @@ __all__ = ['inSitu']
 def inSitu(stress, gradient=None, bodies=None):
 	"""Gives a blocky mass a state of stress as initial contact forces, before the first step: ``polytope.inSitu(numpy.diag((-4e6, -4e6, -6e6)))``.
 
-	Tension is positive, as in *polytope.bodyStress*: compression is negative. Blocks lie as they are cut, face on face, with fixed Polytopes all around but at surfaces that
-	the stress leaves free. Each joint gets the normal and shear force of σ·n over its area, linear over the face. For that blocks get the size that they have
-	without load: larger by half of the closure p/kₙ at each joint, with the mass that they had. Nothing else moves. The stress of each block is the one asked for to
-	about three times the closure over the block's width.
+	Tension is positive, as in *polytope.bodyStress*: compression is negative. Blocks lie as they are cut, face on face, with fixed
+	Polytopes all around but at surfaces that the stress leaves free. Each joint gets the normal and shear force of σ·n over its area,
+	linear over the face. For that blocks get the size that they have without load: larger by half of the closure p/kₙ at each joint, with
+	the mass that they had. Nothing else moves. The stress of each block is the one asked for to about three times the closure over the
+	block's width.
 
-	O.engines must be set. The stress should balance gravity, or the mass moves until it does: ∂σ_ik/∂x_k + ρ g_i = 0. With z upwards and σ_zz = 0 at z = 0, σ_zz = ρ g z
-	and σ_xx = σ_yy = k₀ σ_zz: ``polytope.inSitu(numpy.zeros((3, 3)), gradient=[0 * k, 0 * k, 2600 * 9.81 * k])`` with ``k = numpy.diag((k0, k0, 1))``.
+	O.engines must be set. The stress should balance gravity, or the mass moves until it does: ∂σ_ik/∂x_k + ρ g_i = 0. With z upwards and
+	σ_zz = 0 at z = 0, σ_zz = ρ g z and σ_xx = σ_yy = k₀ σ_zz:
+	``polytope.inSitu(numpy.zeros((3, 3)), gradient=[0 * k, 0 * k, 2600 * 9.81 * k])`` with ``k = numpy.diag((k0, k0, 1))``.
 
 	:param stress: symmetric (3, 3) tensor at the origin of coordinates [Pa]
 	:param gradient: (3, 3, 3) its derivatives along x, y and z, each symmetric [Pa/m]; default none

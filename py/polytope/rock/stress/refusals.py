@@ -24,7 +24,8 @@ accuracy = 0.01
 """Share of a block's forces that may be missing for want of neighbours, or be left by gravity: so near is the stress to what was asked for."""
 
 wrongForce = 0.05
-"""How far a joint's force may be from what was asked, over what a body bears. The rim of its face and neighbours across an edge have a part of the closure over its width."""
+"""How far a joint's force may be from what was asked, over what a body bears. The rim of its face and neighbours across an edge have a part
+of the closure over its width."""
 
 rounding = 1e-9
 """A stress below this share of the largest one at a joint is rounding."""

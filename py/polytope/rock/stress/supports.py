@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Planes in which pieces of one rigid body lie flush, so that they stay flush where one of them moves.
 
-Fixed bodies, or the parts of a clump, that lie side by side make one face of several pieces. A piece that a block meets along an edge alone has no joint, and so no closure of its own. If it
-stayed where it is, its neighbours' faces would stand out by theirs, a step as high as the contact is deep: whether such a step counts is decided anew with each motion (docs/contact-force.md, internal
-faces of a rigid support), so that the force would jump and the block would never come to rest.
+Fixed bodies, or the parts of a clump, that lie side by side make one face of several pieces. A piece that a block meets along an edge alone
+has no joint, and so no closure of its own. If it stayed where it is, its neighbours' faces would stand out by theirs, a step as high as the
+contact is deep: whether such a step counts is decided anew with each motion (docs/contact-force.md, internal faces of a rigid support), so
+that the force would jump and the block would never come to rest.
 """
 
 import numpy as np

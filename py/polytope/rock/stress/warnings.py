@@ -13,7 +13,8 @@ from .refusals import accuracy, forcesBorne
 __all__ = ['warnOfClosure', 'warnOfGravity']
 
 errorOfClosure = 3
-"""Error of a block's stress over the closure of its joints by its width: the rim of faces and neighbours across edges; 2.1 for a cube, 2.7 for slivers (test_in_situ.py)."""
+"""Error of a block's stress over the closure of its joints by its width: the rim of faces and neighbours across edges; 2.1 for a cube, 2.7
+for slivers (test_in_situ.py)."""
 
 
 def warnOfGravity(field, faces, chosen):
