@@ -47,11 +47,11 @@ expected = {
 	'deepestOverlap': (0, 0.025),
 	'overlap': (0, 0.005),
 }
-"""Results of an independent program of the paper's algorithm, one run of each solid with that number of particles and steps; lengths in L, energies in N m g
-L. The ranges of contacts and mean height are those of the five runs; the others are bounds."""
+"""Results of an independent program of the paper's algorithm, one run of each solid with that number of particles and steps; lengths in L,
+energies in N m g L. The ranges of contacts and mean height are those of the five runs; the others are bounds."""
 scatter, scatterSeeds = {'contacts': (8.4, 11.1), 'meanHeight': (0.0104, 0.043)}, 24
-"""Standard deviations between seeds of the least and the largest of the five solids, and of how many seeds, with these settings. They are fixed: what a
-run must hold does not depend on how much it scatters itself."""
+"""Standard deviations between seeds of the least and the largest of the five solids, and of how many seeds, with these settings. They are
+fixed: what a run must hold does not depend on how much it scatters itself."""
 byChance = 'energyHalf', 'energyEnd', 'deepestOverlap'
 """Bounds that one body can exceed alone in a single run: the first two by toppling late, the third by a hard impact."""
 

@@ -49,9 +49,9 @@ leastTime, mostTime, rest = 3.0, 10.0, 1e-4
 
 
 def peakOfSpring(beam):
-	"""Largest load [N] of the beam with the contact model *spring*, from its energy ½ k (6 W/V)² (src/contact/SurfaceContact.hpp). An edge on a face, and two
-	edges that are mirror images, overlap in a polygon with an inscribed circle of radius r that touches all its sides: least slacks in it are a pyramid
-	of that height, so with its area A: V = A r/3, W = A r²/12, U = ½ k (1.5 r)²."""
+	"""Largest load [N] of the beam with the contact model *spring*, from its energy ½ k (6 W/V)² (src/contact/SurfaceContact.hpp). An edge
+	on a face, and two edges that are mirror images, overlap in a polygon with an inscribed circle of radius r that touches all its sides:
+	least slacks in it are a pyramid of that height, so with its area A: V = A r/3, W = A r²/12, U = ½ k (1.5 r)²."""
 
 	def stored(turned):
 		shared = beam.length * (math.cos(turned) - 1) + beam.height * math.sin(turned)

@@ -49,8 +49,8 @@ def testDocumentationNeedsNoYade():
 
 
 def testHeadersComeWithWhatTheyInclude():
-	"""The headers need the very version of plug-in and core, and all that the plug-in is built from but what it alone needs. The library's package has
-	its number in its name."""
+	"""The headers need the very version of plug-in and core, and all that the plug-in is built from but what it alone needs. The library's
+	package has its number in its name."""
 	assert {'libpolytope-core1', 'yade-polytope'} <= field(headers, 'Depends')
 	included = {name for name in field(source, 'Build-Depends') if name.endswith('-dev') or 'qt5' in name or name == 'qtbase5-dev'}
 	ofOurOwn = {'coinor-libipopt-dev', 'dpkg-dev', 'libcgal-dev', 'libdeflate-dev', 'libgmp-dev'}

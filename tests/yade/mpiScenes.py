@@ -165,7 +165,8 @@ def sliding(pieces, number, waterTable=None, **joint):
 
 
 def reallocated(scene, atRandom=False):
-	"""A heap with bodies that change ranks in the run, and how many did so; at random: every five steps, two of five of those that both ranks know."""
+	"""A heap with bodies that change ranks in the run, and how many did so; at random: every five steps, two of five of those that both
+	ranks know."""
 
 	def once():
 		mpy, counts, dice = mpi.mpy, [], random.Random(mpi.rank())
@@ -255,7 +256,8 @@ def ownLaws(**laws):
 
 
 def bonded():
-	"""Two beams of nine blocks that are bonded to each other, each held at one end by its first block; one bond in the middle of the second is weak."""
+	"""Two beams of nine blocks that are bonded to each other, each held at one end by its first block; one bond in the middle of the second
+	is weak."""
 	mpi.merge()
 	O.reset()
 	if master:
@@ -333,7 +335,8 @@ def shaken():
 
 
 def edited():
-	"""Changed on rank 0 between two runs: a body is erased, one gets another velocity and a force, gravity another direction; then one is appended."""
+	"""Changed on rank 0 between two runs: a body is erased, one gets another velocity and a force, gravity another direction; then one is
+	appended."""
 	load()
 	mpi.run(20)
 	if master:

@@ -48,8 +48,8 @@ def results(where):
 
 
 def expectRangesOfTheWholeRun(rows, letter, but=()):
-	"""Each row that a short run has in common with the whole run that docs/results keeps is judged by a range as wide, but those named in *but*; and by the
-	same range, where it does not lie about what the run itself has measured."""
+	"""Each row that a short run has in common with the whole run that docs/results keeps is judged by a range as wide, but those named in
+	*but*; and by the same range, where it does not lie about what the run itself has measured."""
 	kept = json.loads((folder.parents[1] / 'docs/results/paper.json').read_text())['scripts']
 	whole = {row['quantity']: row for script in kept if script['letter'] == letter for row in script['rows']}
 	common = [name for name, row in whole.items() if row['accept'] and name in rows and name not in but]

@@ -34,7 +34,8 @@ gravity = 9.81
 density = 2600.0
 
 bounds = (Bo1_Polytope_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, Bo1_Facet_Aabb, Bo1_Box_Aabb)
-"""Bound functors of all shapes that touch polytopes; withPolytopes: their contact functors; supports: one of each for a block to stand on, with its functor."""
+"""Bound functors of all shapes that touch polytopes; withPolytopes: their contact functors; supports: one of each for a block to stand on,
+with its functor."""
 withPolytopes = (
 	Ig2_Polytope_Polytope_PolytopeGeom,
 	Ig2_Sphere_Polytope_PolytopeGeom,
@@ -58,7 +59,8 @@ def joint(**attributes):
 
 
 def runInBackground(steps=10**9):
-	"""O.run() without waiting for its end, once it has made a step: YADE's O.reset() and O.load() free a run that has not begun, and the thread that then begins it crashes."""
+	"""O.run() without waiting for its end, once it has made a step: YADE's O.reset() and O.load() free a run that has not begun, and the
+	thread that then begins it crashes."""
 	before = O.iter
 	O.run(steps)
 	while O.running and O.iter == before:
@@ -90,7 +92,8 @@ def loop(perArea=False, normalDamping=0.0, shearDamping=0.0, rockingDamping=0.0,
 
 
 def contactOf(model, perArea):
-	"""Attributes of geometry functors: *model* 'boon2012', or 'surface' for the one whose force is the gradient of an energy with such stiffnesses."""
+	"""Attributes of geometry functors: *model* 'boon2012', or 'surface' for the one whose force is the gradient of an energy with such
+	stiffnesses."""
 	return {'contactModel': model if model == 'boon2012' else 'foundation' if perArea else 'spring'}
 
 

@@ -136,7 +136,8 @@ def measured(letter, scene, quick):
 
 
 def summary(tables):
-	"""Rows of the table over all scenes: setting; least, median and largest cost over that of the first setting; error, or why there is none, of each scene."""
+	"""Rows of the table over all scenes: setting; least, median and largest cost over that of the first setting; error, or why there is
+	none, of each scene."""
 	names = dict.fromkeys(row.name for table in tables.values() for row in table if 'seed' not in row.name)
 	for name in sorted(names, key=lambda name: models.index(name.partition(',')[0])):
 		rows = {letter: next((row for row in table if row.name == name), None) for letter, table in tables.items()}

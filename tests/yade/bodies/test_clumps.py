@@ -91,7 +91,8 @@ def testPropertiesOfPolygonsAreThoseOfTheirPrisms(name, thick):
 
 
 def testAClumpOfPolygonsRestsIsStressedAndIsCut(tmp_path):
-	"""An L of two polygons that overlap: its weight on the floor, its stress with the union's area, its picture; a notch cut out of its foot and of the floor."""
+	"""An L of two polygons that overlap: its weight on the floor, its stress with the union's area, its picture; a notch cut out of its
+	foot and of the floor."""
 	foot = rectangle((-5, -1), (5, 0), fixed=True, color=(0, 1, 0))
 	floor = O.bodies.append(foot)
 	number, members = polytope.clump([rectangle((0, 0), (3, 1), color=(1, 0, 0)), rectangle((0, 0), (1, 2), color=(1, 0, 0))])

@@ -16,7 +16,8 @@ bothRules = pytest.mark.parametrize('perArea', [False, True])
 
 
 class DefaultEngines:
-	"""Grains with the engines and the time step that a scene has by default; without YADE's damping, which would take the energy that a contact makes."""
+	"""Grains with the engines and the time step that a scene has by default; without YADE's damping, which would take the energy that a
+	contact makes."""
 
 	def _engines(self, moving=()):
 		O.materials[-1].stiffnessPerArea = self.perArea

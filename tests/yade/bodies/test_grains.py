@@ -128,7 +128,8 @@ def testGrainsAreNoMirrorImages(sides):
 
 
 def testGrainsOfPartsMakeClumps():
-	"""An L of two boxes that overlap: it counts as their union, its parts lie to each other as they were given, and a cloud of clumps has them apart."""
+	"""An L of two boxes that overlap: it counts as their union, its parts lie to each other as they were given, and a cloud of clumps has
+	them apart."""
 	parts = [polytope.cuboid((10, 0, 0), (3, 1, 1)), polytope.cuboid((8, 1, 0), (1, 2, 1))]  # 24 + 16 - 8 m³, 6 m × 4 m × 2 m
 	sample = polytope.grains([(0.01, 0), (0.02, 1)], 0.2, seed=3, shapes=[parts])
 	assert len(sample) > 20 and all(len(one) == 2 for one in sample)
@@ -219,8 +220,8 @@ def testCloudIsInsideAndApart():
 
 
 def testCloudOfGrainsAndSpheres():
-	"""They are apart by closed forms: spheres by their centres, a sphere and a grain by the grain's corners, edges and faces, which a fine net of points
-	stands for."""
+	"""They are apart by closed forms: spheres by their centres, a sphere and a grain by the grain's corners, edges and faces, which a fine
+	net of points stands for."""
 	stones = polytope.grains([(0.01, 0), (0.02, 1)], number=30, seed=1)
 	bodies = polytope.cloud((0, 0, 0), (0.1, 0.1, 0.1), [*stones, *(yade.utils.sphere((0, 0, 0), 0.006) for _ in range(60))], seed=1)
 	spheres = [body for body in bodies if isinstance(body.shape, yade.Sphere)]

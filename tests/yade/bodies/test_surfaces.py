@@ -154,7 +154,8 @@ def testSphereForComparison():
 
 
 def slideOverFreePieces(pieces, perArea=True, seconds=1.9, order=1, verletDist=None):
-	"""A cube of 0.5 m slides without friction at 1 m/s over *pieces(sunk)*, which lie on a rough floor, from x = 0. The order of the bodies is reversed where *order* is -1.
+	"""A cube of 0.5 m slides without friction at 1 m/s over *pieces(sunk)*, which lie on a rough floor, from x = 0. The order of the bodies
+	is reversed where *order* is -1.
 
 	:returns: speed lost, its place
 	"""
@@ -373,8 +374,8 @@ def testBodiesLieOnAFace(kind):
 
 
 def foundationDepth(scene, corners):
-	"""Depth of the centroid of a body that lies on a face, on springs spread over that face: the mean depth times 1 + e·r⁻²·e, where e is its place from
-	the middle of the face, and r² are the squares of the face's radii of gyration."""
+	"""Depth of the centroid of a body that lies on a face, on springs spread over that face: the mean depth times 1 + e·r⁻²·e, where e is
+	its place from the middle of the face, and r² are the squares of the face's radii of gyration."""
 	low = corners[corners[:, 2] < -scene.depth + 1e-9]
 	if scene.planar:
 		ends = low[:, 0].min(), low[:, 0].max()

@@ -193,7 +193,8 @@ def testTwoThreadsAgreeExactly():
 
 
 def testLoadedBondsStayInTheirScene(tmp_path):
-	"""Loaded, looked at before any step, and left: they take nothing of the next scene, whose bodies have the same ids. Left out of the engines they are missed."""
+	"""Loaded, looked at before any step, and left: they take nothing of the next scene, whose bodies have the same ids. Left out of the
+	engines they are missed."""
 	name = str(tmp_path / 'bonded.yade')
 	assert row(2) == 1
 	O.save(name)

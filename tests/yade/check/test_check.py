@@ -719,7 +719,8 @@ def testStrengthThatIsLostToTheOtherSide(name):
 
 
 def testTheFaceThatLiesOnTheContactSaysWhichStrengthIsLost():
-	"""A block stands on an edge between two faces without strength, on a floor with cohesion: by the rule of the contact's physics the floor's face counts on both sides."""
+	"""A block stands on an edge between two faces without strength, on a floor with cohesion: by the rule of the contact's physics the
+	floor's face counts on both sides."""
 	O.materials.append(rock(label='weak'))
 	O.materials.append(rock(label='strong', cohesion=4e4, residualCohesion=4e4))
 	floor = polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), material=1, fixed=True)

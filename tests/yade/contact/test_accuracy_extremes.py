@@ -68,7 +68,8 @@ ofPairs = {
 	),
 	'units': ('units', {'scaled': 'scaled answer to 1e-11'}),
 }
-"""Axis of the pairs → row of the table in docs/accuracy.md, and what is in a limit's text → what is in that row, which ends with the limit or its unit."""
+"""Axis of the pairs → row of the table in docs/accuracy.md, and what is in a limit's text → what is in that row, which ends with the limit
+or its unit."""
 
 
 @pytest.mark.parametrize('axis', ofPairs)

@@ -52,8 +52,8 @@ def testBothModelsAgreeWithClosedForms(tmp_path):
 
 
 def testTheSlidingWedgeFailsWhereItsLockedInShearSays():
-	"""A wedge that settles elastically takes shear across its line of sliding, and some of it is left at failure. Limit equilibrium with that shear is the
-	angle that is found, to a friction step."""
+	"""A wedge that settles elastically takes shear across its line of sliding, and some of it is left at failure. Limit equilibrium with
+	that shear is the angle that is found, to a friction step."""
 	blocks = BlockGeometry.read(example.parent / 'geometry/c_sliding_wedge.json')
 	theory = limitEquilibrium(blocks)
 	scene = WedgeScene(blocks, timeStepFraction=0.2, contactModel='surface').build()

@@ -122,7 +122,8 @@ def testDampingTakesEnergyOfEveryCollisionOfASpring():
 
 
 def testLevelFloorPushesUpOnly():
-	"""Cubes turned at random fall 1 m onto a floor each, and bounce there: without friction nothing may move them sideways; the paper's averaged normals do."""
+	"""Cubes turned at random fall 1 m onto a floor each, and bounce there: without friction nothing may move them sideways; the paper's
+	averaged normals do."""
 	ways, energies = {}, {}
 	for model in ('surface', 'boon2012'):
 		O.reset()

@@ -113,7 +113,8 @@ def testASphereHasItsRadius():
 
 @pytest.mark.parametrize('support', supports)
 def testACubeComesToRestOnIt(support):
-	"""Set down 0.1 mm above it, under defaults: it sinks by its weight over the stiffness of all contacts, which pieces of one support share, and never by more than a hundredth of its size."""
+	"""Set down 0.1 mm above it, under defaults: it sinks by its weight over the stiffness of all contacts, which pieces of one support
+	share, and never by more than a hundredth of its size."""
 	frict()
 	O.bodies.append(supports[support]())
 	cube = O.bodies[O.bodies.append(polytope.cuboid((0, 0, half + 1e-4), (half, half, half)))]

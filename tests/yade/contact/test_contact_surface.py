@@ -111,7 +111,8 @@ def testABlockRestsOnAFaceWithItsWeight(model):
 @pytest.mark.parametrize('model', models)
 @pytest.mark.parametrize('faces', [4, 8, 12])
 def testASolidThatBouncesOnAFloorKeepsItsEnergy(model, faces):
-	"""On one face there is no moment about the normal to leave out. Kinetic energy is taken between two steps, as the positions are half a step on."""
+	"""On one face there is no moment about the normal to leave out. Kinetic energy is taken between two steps, as the positions are half a
+	step on."""
 	joint(model)
 	O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
 	solid = O.bodies.append(
@@ -257,8 +258,8 @@ def testAGasOf64KeepsItsEnergyAtTheDefaultStep(model, most, seed):
 
 @pytest.mark.parametrize('model, step', [('foundation', 9e-5), ('spring', 5e-5)])
 def testTheErrorOfAGasFallsWithTheSquareOfTheTimeStep(model, step):
-	"""Over two gases of 27, of a quarter of the step a sixteenth. The step is constant: one that changes within a contact is an error of first order of YADE's
-	leapfrog, and PolytopeTimeStepper changes it when solids lie on each other with a face."""
+	"""Over two gases of 27, of a quarter of the step a sixteenth. The step is constant: one that changes within a contact is an error of
+	first order of YADE's leapfrog, and PolytopeTimeStepper changes it when solids lie on each other with a face."""
 	squares = []
 	for part in (1, 4):
 		total = 0
@@ -274,7 +275,8 @@ def testTheErrorOfAGasFallsWithTheSquareOfTheTimeStep(model, step):
 
 @pytest.mark.parametrize('dimension', [2, 3])
 def testABlockAtRestOnAFloorKeepsItsKineticEnergyForAMillionSteps(dimension):
-	"""With FrictMat and YADE's own law, without damping: it sits at the depth of its weight, tilted by a tenth of that over its half width, rocks and bobs for ever."""
+	"""With FrictMat and YADE's own law, without damping: it sits at the depth of its weight, tilted by a tenth of that over its half width,
+	rocks and bobs for ever."""
 	stiffness, half = 1e7, 0.5
 	O.materials.append(FrictMat(density=2500, young=1, poisson=0.5, frictionAngle=math.radians(35)))
 	depth = 2500 * (2 * half) ** 3 * 10 / stiffness

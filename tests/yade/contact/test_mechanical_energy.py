@@ -94,7 +94,8 @@ def touching(one, other):
 @pytest.mark.parametrize('model', ['boon2012', 'surface'])
 @pytest.mark.parametrize('kind', ['dilation', 'closure', 'tension', 'residualTension'])
 def testStoredEnergyIsThatOfTheLaw(kind, model):
-	"""Where the force is not the geometry's own times a constant stiffness, too: a block that widens its joint by sliding, with a closure of its own, and that is pulled off."""
+	"""Where the force is not the geometry's own times a constant stiffness, too: a block that widens its joint by sliding, with a closure
+	of its own, and that is pulled off."""
 	joint(
 		normalStiffness=1e7,
 		**{

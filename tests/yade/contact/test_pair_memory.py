@@ -69,8 +69,8 @@ def testASpherePairApartHasNone():
 
 
 def testBytesOfABodyAPairApartAndAContact():
-	"""YADE's own Interaction is 0.37 kB of a pair and of a contact, with its places in the lists of the loop and of both bodies; the vertices that a contact
-	keeps are 0.14 kB."""
+	"""YADE's own Interaction is 0.37 kB of a pair and of a contact, with its places in the lists of the loop and of both bodies; the
+	vertices that a contact keeps are 0.14 kB."""
 	found = memory.measure(quick=True)
 	print(found)
 	assert found['pair apart'] < found['contact'] / 2

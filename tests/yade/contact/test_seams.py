@@ -257,15 +257,16 @@ regular = {
 
 
 def halfOfRidge(fall, seam):
-	"""Area, and radius of the inscribed circle, of what lies between a slope, the level one unit below its upper end, and the plane between it and the other slope, *seam* to
-	the side of that end at the level [1]."""
+	"""Area, and radius of the inscribed circle, of what lies between a slope, the level one unit below its upper end, and the plane between
+	it and the other slope, *seam* to the side of that end at the level [1]."""
 	width = 1 / fall - seam
 	area = width / 2
 	return area, 2 * area / (width + math.hypot(1, 1 / fall) + math.hypot(1, seam))
 
 
 def sunkOnRidge(halves, perArea, length=1.0, force=2600 * 9.81 / stiffness):
-	"""How far a block of this length sinks onto a ridge of pieces: each has a surface of its own, in which the pressure falls to zero towards the seam, too."""
+	"""How far a block of this length sinks onto a ridge of pieces: each has a surface of its own, in which the pressure falls to zero
+	towards the seam, too."""
 
 	def grows(h):
 		"""Force over the stiffness. V = A (L r/3 − r²/6), W = A (L r²/12 − r³/15) of a piece with A = α h², r = ϱ h."""
@@ -288,7 +289,8 @@ def sunkOnRidge(halves, perArea, length=1.0, force=2600 * 9.81 / stiffness):
 @pytest.mark.parametrize('rule', rules.args[1])
 @pytest.mark.parametrize('fall', [0.5, 1, 1.5])
 def testARidgeOfPiecesHasASurfaceOnEach(fall, rule):
-	"""Ridges of facets, of two solids, and of four, two of which lie flush, are all the same: softer per area and stiffer per contact than one solid."""
+	"""Ridges of facets, of two solids, and of four, two of which lie flush, are all the same: softer per area and stiffer per contact than
+	one solid."""
 	found = []
 	for ridge in (lambda: bent(fall, fall), lambda: slopes(fall, fall, 2), lambda: slopes(fall, fall, 4)):
 		depth, contacts = restingDepth(ridge, lambda: polytope.cuboid((0, 0.1, 0.5), (0.5, 0.5, 0.5)), rule, steps=8000)
@@ -380,7 +382,8 @@ def testThinTilesCarryAsOnePlate(thickness, rule):
 
 @pytest.mark.parametrize('centre', [-0.1, 0.1])
 def testWhatOverhangsABoxOfFacetsIsCarriedByItsTopAlone(centre):
-	"""Its side is seen from outside, though the body's centre may be within. What the edges take off the top's pressure is of the order of the depth over the width."""
+	"""Its side is seen from outside, though the body's centre may be within. What the edges take off the top's pressure is of the order of
+	the depth over the width."""
 
 	def box():
 		quad = lambda a, b, c, d: [utils.facet((a, b, c)), utils.facet((a, c, d))]
@@ -496,8 +499,9 @@ def spike(tip, way):
 
 @pytest.mark.parametrize('way', [(1, -1, -1), (0.4, -0.7, -0.6), (0.3, -0.3, -0.9)])
 def testNoWallIsLeftOutBehindACornerThatPointsInwards(way):
-	"""A tip in the corner of a floor and two walls, one of which ends at the other: where it is behind both, the one covers the other's face. The energy
-	is that of the depth: 0.5 of its square for a face, 4 for this tip, some ten where it cuts an edge; 10⁸ and more where the wall had no face."""
+	"""A tip in the corner of a floor and two walls, one of which ends at the other: where it is behind both, the one covers the other's
+	face. The energy is that of the depth: 0.5 of its square for a face, 4 for this tip, some ten where it cuts an edge; 10⁸ and more where
+	the wall had no face."""
 	for z in (-1e-5, 1e-5, 1e-4, 1e-3):
 		for x in (1e-4, 4e-4, 2e-3):
 			for y in (-1e-3, -4e-3):
@@ -516,8 +520,8 @@ def testNoWallIsLeftOutBehindACornerThatPointsInwards(way):
 
 
 def energyLeft(model, pieces, tilt, speed, x):
-	"""A cube of 1 m falls on a corner, without friction, damping and gravity. Returns the kinetic energy afterwards over that before, and how deep the
-	cube sank in [m]."""
+	"""A cube of 1 m falls on a corner, without friction, damping and gravity. Returns the kinetic energy afterwards over that before, and
+	how deep the cube sank in [m]."""
 	O.reset()
 	perArea = model == 'foundation'
 	O.materials.append(

@@ -137,8 +137,8 @@ def testErrorOfCollisionsFallsWithTheSquareOfTheTimeStep(cubes):
 
 
 def testWhatTheIntegratorDoesByItself():
-	"""Takes equal boxes in free flight, with the same steps, for as long: YADE's rotation of unequal moments keeps energy and momentum far better than a
-	collision does. So the error of a collision is that of its steps through the contact, not of its free rotation."""
+	"""Takes equal boxes in free flight, with the same steps, for as long: YADE's rotation of unequal moments keeps energy and momentum far
+	better than a collision does. So the error of a collision is that of its steps through the contact, not of its free rotation."""
 	lost, turned = [], []
 	for step in steps:
 		energies, momenta = [], []
@@ -172,7 +172,8 @@ def testWhatTheIntegratorDoesByItself():
 
 @pytest.mark.parametrize('cubes', [False, True])
 def testAngularMomentumIsKept(cubes):
-	"""It is kept to rounding for cubes; for unequal moments, to what YADE's integrator does with a torque, which it takes in axes of the step's start."""
+	"""It is kept to rounding for cubes; for unequal moments, to what YADE's integrator does with a torque, which it takes in axes of the
+	step's start."""
 	errors = []
 	for step in steps:
 		meet(3, 'spring', cubes)

@@ -35,7 +35,8 @@ def block(dimension, x, z, depth, fixed=False):
 
 
 def held(ids, load, ramp=0.3, hold=0.5, before=0.1, fallen=2e-3, **engines):
-	"""Whether none of these bodies moves by *fallen* [m] once their weights have grown to *load* times their masses [m/s²], smoothly. Other bodies have no weight."""
+	"""Whether none of these bodies moves by *fallen* [m] once their weights have grown to *load* times their masses [m/s²], smoothly. Other
+	bodies have no weight."""
 	O.engines = polytope.engines(gravity=(0, 0, 0), **engines)
 	while O.time < before:
 		O.step()
@@ -81,8 +82,9 @@ corbelLength, corbelHeight, clamped = 1.0, 0.3, 0.4
 
 
 def clampOfCorbel(K):
-	"""Least force that clamps a corbel on elastic joints: rigid, P a = W (L/2 - a) about the wall's edge. Turned by θ it bears on a wedge of pressure at that edge, and one at its
-	rear end, which are w = √(2 N/(K θ)) long with their resultants w/3 from their edges; the arms change with θ, too."""
+	"""Least force that clamps a corbel on elastic joints: rigid, P a = W (L/2 - a) about the wall's edge. Turned by θ it bears on a wedge
+	of pressure at that edge, and one at its rear end, which are w = √(2 N/(K θ)) long with their resultants w/3 from their edges; the arms
+	change with θ, too."""
 	weight = density * corbelLength * corbelHeight * gravity  # for each metre of depth
 
 	def moment(turn, force):
@@ -124,11 +126,13 @@ def testACorbelIsClampedByItsMoment(dimension):
 
 
 keySlope, pad, closure, keyStiffness, keyFriction = radians(15), 0.4, 1e-4, 1e10, 0.8
-"""Angle of a key's faces from the vertical; width of the fixed blocks that press on them, and how far into them [m]; normal and shear stiffness [Pa/m]."""
+"""Angle of a key's faces from the vertical; width of the fixed blocks that press on them, and how far into them [m]; normal and shear
+stiffness [Pa/m]."""
 
 
 def key(faces, pressed, load, across):
-	"""A frustum of so many faces that widens downwards, some of them pressed by a fixed block at the height of the centroid. Loads are forces [N]; *across* is along y."""
+	"""A frustum of so many faces that widens downwards, some of them pressed by a fixed block at the height of the centroid. Loads are
+	forces [N]; *across* is along y."""
 	joint(keyFriction, keyStiffness, keyStiffness)
 	high, apothem = 1.0, 0.8
 	rings = [((apothem - z * tan(keySlope)) / cos(pi / faces), z) for z in (-high / 2, high / 2)]
@@ -186,7 +190,8 @@ def leaning(tangent):
 
 
 def testAnArchIsOverturnedSidewaysAboutItsSpringings():
-	"""As one body, about the outer edges of both springings, on the wedge of pressure of an elastic joint: 9 % below the rigid one's breadth over twice the height of its centroid."""
+	"""As one body, about the outer edges of both springings, on the wedge of pressure of an elastic joint: 9 % below the rigid one's
+	breadth over twice the height of its centroid."""
 	breadth, thickness = 0.2, 0.2
 	states = [O.bodies[k].state for k in arch(breadth, 1)]
 	mass = sum(state.mass for state in states)
@@ -254,8 +259,9 @@ def ladder(dimension, angle, friction, turned, K, length=2.0, side=0.2):
 
 @pytest.mark.parametrize('dimension, turned, K, margin', [(2, False, 1e10, 0.3), (3, False, 1e10, 0.3), (3, True, 1e11, 0.6)])
 def testALadderStandsWhereFrictionAtBothEndsHoldsIt(dimension, turned, K, margin, friction=0.4):
-	"""Rigid: tan θ = (1 - μ²)/(2 μ + (1 + μ²) h/L), with the height h and the length L of its section. Both ends slip by some depths before they hold what
-	they can: with vertices, which are softer than edges, it stands from 0.3 to 0.6 degrees above (0.1 to 0.3 with ten times the stiffness)."""
+	"""Rigid: tan θ = (1 - μ²)/(2 μ + (1 + μ²) h/L), with the height h and the length L of its section. Both ends slip by some depths before
+	they hold what they can: with vertices, which are softer than edges, it stands from 0.3 to 0.6 degrees above (0.1 to 0.3 with ten times
+	the stiffness)."""
 	height = 0.2 * (sqrt(2) if turned else 1)
 	least = atan((1 - friction**2) / (2 * friction + (1 + friction**2) * height / 2))
 	assert ladder(dimension, least + radians(margin), friction, turned, K)
@@ -263,8 +269,9 @@ def testALadderStandsWhereFrictionAtBothEndsHoldsIt(dimension, turned, K, margin
 
 
 def topplingAlong(courses, length, K, brick=0.4, high=0.2):
-	"""Tangent at which a part of a wall turns about the lower corner of an end brick: that brick, and all that lies on what turns, so half a brick more with each course. The least over
-	all courses; turned on the elastic joint below it as a block with the same arms and weight for each metre of breadth."""
+	"""Tangent at which a part of a wall turns about the lower corner of an end brick: that brick, and all that lies on what turns, so half
+	a brick more with each course. The least over all courses; turned on the elastic joint below it as a block with the same arms and weight
+	for each metre of breadth."""
 
 	def arms(course):
 		first = brick / 2 if course % 2 else brick
@@ -278,8 +285,8 @@ def topplingAlong(courses, length, K, brick=0.4, high=0.2):
 
 @pytest.mark.parametrize('length, rigid', [(0.4, 0.3333), (0.8, 0.5349), (1.2, 0.5789)])
 def testABrickWallIsToppledAlong(length, rigid):
-	"""A pier of a brick and two halves in turn topples as one body; a longer wall parts along its bond, from the half brick at the end of the second course up (as one body it would stand
-	to a tangent of 0.67, and 1). Friction does not let it slide."""
+	"""A pier of a brick and two halves in turn topples as one body; a longer wall parts along its bond, from the half brick at the end of
+	the second course up (as one body it would stand to a tangent of 0.67, and 1). Friction does not let it slide."""
 	K = 1e10
 	least, elastic = topplingAlong(6, length, K)
 	assert least == pytest.approx(rigid, abs=1e-4)

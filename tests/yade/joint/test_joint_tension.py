@@ -89,7 +89,8 @@ def testAPolygonHoldsAsWell():
 
 @pytest.mark.parametrize('tilt', [0, 2e-6, 4e-5])
 def testWhileAllOfItIsPressedItIsTheOrdinaryFoundation(tilt):
-	"""Force and moment of the overlap and of the springs over the faces, but for what the faces' edges take off the pressure of the overlap: its depth over their width."""
+	"""Force and moment of the overlap and of the springs over the faces, but for what the faces' edges take off the pressure of the
+	overlap: its depth over their width."""
 	found = []
 	for strength in (0, 1e6):
 		O.reset()

@@ -70,7 +70,8 @@ def normalOf(dip, direction):
 
 
 def wedge(factor, shearStiffness):
-	"""Hoek & Bray's wedge of two joints (24 kPa, 20° and 48 kPa, 30°), 30 m high, dry; strengths over *factor*. Returns it and its factor of safety."""
+	"""Hoek & Bray's wedge of two joints (24 kPa, 20° and 48 kPa, 30°), 30 m high, dry; strengths over *factor*. Returns it and its factor
+	of safety."""
 	O.reset()
 	one, two, face, top = (normalOf(*joint) for joint in ((45, 105), (70, 235), (65, 185), (12, 195)))
 	strengths = (24e3, radians(20)), (48e3, radians(30))

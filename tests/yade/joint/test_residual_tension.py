@@ -155,8 +155,8 @@ def testABrickHungBesideItsMiddleFallsWhenAllOfItsFaceYields(two, factor, holds)
 
 @pytest.mark.parametrize('factor, holds', [(0.9, True), (1.03, False)])
 def testACantileverOfBlocksFailsByAPlasticHingeAtItsClampedEnd(factor, holds):
-	"""F L = T b h²/2: three times the load at which its outermost fibre yields. At nine tenths it has turned by 2 mrad. The joint nearer to the load has a third
-	of the moment, and does not yield."""
+	"""F L = T b h²/2: three times the load at which its outermost fibre yields. At nine tenths it has turned by 2 mrad. The joint nearer to
+	the load has a third of the moment, and does not yield."""
 	O.materials.append(
 		RockJointMat(
 			density=2600,

@@ -233,8 +233,9 @@ def stiffnessMatrix(perArea, slope):
 
 @pytest.mark.parametrize('perArea', [True, False])
 def testStiffnessOfABlockOnASlopeIsSymmetric(perArea):
-	"""It is symmetric but for the shear force times the block's size, 1e4 N m. Else rocking and twisting, of one frequency here, set each other swinging: at rest the shear force acts
-	at the middle of the face, though the pressure's centre is a tenth of a metre farther down."""
+	"""It is symmetric but for the shear force times the block's size, 1e4 N m. Else rocking and twisting, of one frequency here, set each
+	other swinging: at rest the shear force acts at the middle of the face, though the pressure's centre is a tenth of a metre farther
+	down."""
 	found = stiffnessMatrix(perArea, radians(50))
 	assert found[1, 1] == pytest.approx(1e8, rel=1e-3) and found[5, 5] == pytest.approx(1e8 / 6, rel=1e-3)
 	assert np.abs(found - found.T).max() < 1e4

@@ -158,7 +158,8 @@ def testTriaxialBetweenWallsHoldsItsStress():
 
 
 def testContactAndWallStressDifferByInertia():
-	"""While a sample deforms: on the axis the contacts bear less than the walls, sideways more, as the square of the inertial number; not by damping."""
+	"""While a sample deforms: on the axis the contacts bear less than the walls, sideways more, as the square of the inertial number; not
+	by damping."""
 	found, unsure = {}, {}
 	for inertialNumber, damping in ((2e-2, 0.2), (2e-2, 0), (5e-3, 0.2)):
 		O.reset()
@@ -186,7 +187,8 @@ def testContactAndWallStressDifferByInertia():
 
 
 def testAnotherSceneIsToldOf(tmp_path):
-	"""After O.load a test of before would step for ever, since its bodies are gone; the boundary of the loaded scene stands still, which a run must not hide."""
+	"""After O.load a test of before would step for ever, since its bodies are gone; the boundary of the loaded scene stands still, which a
+	run must not hide."""
 	extents = stack((2, 2, 2), 0)
 	test = polytope.triaxial(polytope.sample(), stress=1e5, inertialNumber=1e-2)
 	O.save(str(tmp_path / 'test.yade.gz'))

@@ -170,8 +170,8 @@ def testColoursOfBodiesThatCannotMove():
 
 
 def testPictureOfASmallSceneTakesLittleTime(tmp_path):
-	"""The limit is on the processors' time of the drawing program and what it starts: 0.9 s, 1.4 s where Mesa keeps no compiled shaders; 9.8 s when the
-	shading was drawn in full size."""
+	"""The limit is on the processors' time of the drawing program and what it starts: 0.9 s, 1.4 s where Mesa keeps no compiled shaders;
+	9.8 s when the shading was drawn in full size."""
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
 	O.bodies.append([polytope.regular(12, 0.4, center=(k - 2, 0, 0.5)) for k in range(5)])
 	before = os.times()

@@ -45,8 +45,8 @@ def installed(tmp_path):
 
 @pytest.mark.parametrize('place, compiler', [('overlay', 'g++'), ('prefix', 'g++'), ('prefix', 'clang++')])
 def testTwoSetsOfVerticesHaveTheirContact(place, compiler, installed, tmp_path):
-	"""s*, point, normal, depth and force have their closed forms. The program has warnings of its own as errors, and none of our options; it sees no source file
-	of this project."""
+	"""s*, point, normal, depth and force have their closed forms. The program has warnings of its own as errors, and none of our options;
+	it sees no source file of this project."""
 	if shutil.which(compiler) is None:
 		pytest.skip(f'there is no {compiler} here')
 	prefix = overlay if place == 'overlay' else installed

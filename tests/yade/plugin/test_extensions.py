@@ -27,8 +27,8 @@ def run(*command, **options):
 
 
 def built(name, variant='as it is', prefix=overlay, options=(), examples=project / 'examples/extend', **changed):
-	"""Path of the library of an example, from a copy of its sources, with other contents of a file `changed`, against the headers in a prefix. YADE's headers take a minute, so
-	that copies and what was compiled stay in the build folder for the next run."""
+	"""Path of the library of an example, from a copy of its sources, with other contents of a file `changed`, against the headers in a
+	prefix. YADE's headers take a minute, so that copies and what was compiled stay in the build folder for the next run."""
 	folder = build / 'testExtensions' / variant.replace(' ', '_') / name
 	source, made = folder / 'sources', folder / 'build'
 	source.mkdir(parents=True, exist_ok=True)
@@ -75,7 +75,8 @@ def scene(stiffness, height, stress=1e5):
 
 
 def testALawOfOnesOwnRestsAtItsClosedForm(joint, tmp_path):
-	"""k u/(1 − u/V) A = m g; the same after the scene is loaded in a new process, which knows the extension from the environment; and nothing is found wrong."""
+	"""k u/(1 − u/V) A = m g; the same after the scene is loaded in a new process, which knows the extension from the environment; and
+	nothing is found wrong."""
 	saved = tmp_path / 'scene.yade.bz2'
 	script = (
 		block
@@ -157,7 +158,8 @@ def testHiddenVisibilityIsUndoneOrRefused():
 
 
 def refused(library, **environment):
-	"""What polytope.load() says; YADE itself, started with the library in its environment, says the same and goes on, and so does polytope.load() then."""
+	"""What polytope.load() says; YADE itself, started with the library in its environment, says the same and goes on, and so does
+	polytope.load() then."""
 	script = """
 from yade import polytope
 try: polytope.load(sys.argv[1])
@@ -212,7 +214,8 @@ def testAnExtensionBuiltWithAnotherInterfaceIsRefused(otherAbi):
 
 
 def testTheSumOfTheHeadersChangesWithThem(tmp_path):
-	"""By which an extension is compared with the plug-in: the same for the same headers, another one where one of them, or the configuration, has another line."""
+	"""By which an extension is compared with the plug-in: the same for the same headers, another one where one of them, or the
+	configuration, has another line."""
 	source, into = tmp_path / 'source', tmp_path / 'into'
 	name = 'host/FlatArchive.hpp'
 	(source / 'host').mkdir(parents=True)
@@ -440,8 +443,8 @@ def testAConstructorThatThrowsIsRefused(what, reason, thrower):
 
 
 def testWhatWasRefusedOnTrialIsLookedAtAnew(thrower, joint, tmp_path):
-	"""In the same process, under the same path: when its constructor no longer throws, and when another library is there. One that was refused after it had been loaded stays there, and
-	the answer says that."""
+	"""In the same process, under the same path: when its constructor no longer throws, and when another library is there. One that was
+	refused after it had been loaded stays there, and the answer says that."""
 	twice = tmp_path / 'twice.so'
 	shutil.copy(joint, twice)
 	script = """

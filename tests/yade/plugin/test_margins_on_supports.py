@@ -54,7 +54,8 @@ def kinetic(state):
 
 
 def testDepthsHaveTheirClosedForms(rounded):  # noqa: F811
-	"""Faces, an edge over a face, a corner on a face, corner on corner, on a box and on a triangle, both fixed and free: 0.01 m deep, and the normal. With a margin of 1e-3 m the cores overlap."""
+	"""Faces, an edge over a face, a corner on a face, corner on corner, on a box and on a triangle, both fixed and free: 0.01 m deep, and
+	the normal. With a margin of 1e-3 m the cores overlap."""
 	script = (
 		start
 		+ """
@@ -113,7 +114,8 @@ answer(seen)
 
 @pytest.mark.parametrize('kind', ['box', 'boxes', 'plates', 'facets'])
 def testItComesToRestOnSeams(rounded, kind):  # noqa: F811
-	"""Let fall with a tilt over seams, with friction, margins from below the depth of the contact to a body's size: upright, still, with its weight, under both colliders; check finds nothing wrong before."""
+	"""Let fall with a tilt over seams, with friction, margins from below the depth of the contact to a body's size: upright, still, with
+	its weight, under both colliders; check finds nothing wrong before."""
 	script = (
 		start
 		+ """
@@ -144,7 +146,8 @@ answer(seen)
 
 @pytest.mark.parametrize('kind', ['boxes', 'plates', 'facets'])
 def testItSlidesOverSeamsAsOverOneFace(rounded, kind):  # noqa: F811
-	"""Without friction at 1 m/s over pieces of 0.5 m, flat and on an edge and a corner: the weight all the way, no motion up, aside, or about an axis."""
+	"""Without friction at 1 m/s over pieces of 0.5 m, flat and on an edge and a corner: the weight all the way, no motion up, aside, or
+	about an axis."""
 	script = (
 		start
 		+ """
@@ -239,7 +242,8 @@ answer(seen)
 
 
 def testInAContainerOfAMesh(rounded):  # noqa: F811
-	"""A box of facets, open above: bodies that fall in it come to rest on its floor and against its walls, and none leaves it; the floor has their weight."""
+	"""A box of facets, open above: bodies that fall in it come to rest on its floor and against its walls, and none leaves it; the floor
+	has their weight."""
 	script = (
 		start
 		+ """
@@ -285,7 +289,8 @@ answer(seen)
 
 
 def testABoxThatMovesTakesABodyAlong(rounded):  # noqa: F811
-	"""A fixed box with a velocity: a body on it comes to that velocity by friction, with μ g; a free box lies on a fixed rounded body with its weight."""
+	"""A fixed box with a velocity: a body on it comes to that velocity by friction, with μ g; a free box lies on a fixed rounded body with
+	its weight."""
 	script = (
 		start
 		+ """
@@ -314,7 +319,8 @@ answer([rate, carried, swing, float(O.forces.f(1)[2]) / (9.81 * float(O.bodies[0
 
 
 def testARodOnARidgeAndInAValley(rods):  # noqa: F811
-	"""Ridge and valley are made of facets, and of wedges: across a ridge it has one spring for all pieces that meet there; in a valley each side has one of its own, W / (2 cos 45°)."""
+	"""Ridge and valley are made of facets, and of wedges: across a ridge it has one spring for all pieces that meet there; in a valley each
+	side has one of its own, W / (2 cos 45°)."""
 	script = (
 		startOfRods
 		+ floors

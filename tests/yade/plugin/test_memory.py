@@ -62,7 +62,8 @@ print('KILOBYTES', resident() - before)
 '''
 
 most = 300
-"""Growth over all cycles [kB] that is allowed. 160 to 200 kB were measured in two cycles of 12 000 steps each, and of 50 000: buffers as large as the largest contact surface."""
+"""Growth over all cycles [kB] that is allowed. 160 to 200 kB were measured in two cycles of 12 000 steps each, and of 50 000: buffers as
+large as the largest contact surface."""
 offsets = 600
 """Number of half-spaces that a cycle makes bodies of. One reference kept to each is 19 kB a cycle."""
 

@@ -35,7 +35,8 @@ sameAsHeap = ['parts', 'divided', 'decomposed']
 sameAsClumped = ['clumpedParts', 'clumpedDivided', 'clumpedDecomposed']
 """The hundred steps of the heap of clumps on 3 ranks, in other ways."""
 sessions = tempfile.TemporaryDirectory(prefix='mpi')
-"""Folder of the runs' own files, one in it for each run: mpirun names its by its process number and does not start where one that was killed left the same."""
+"""Folder of the runs' own files, one in it for each run: mpirun names its by its process number and does not start where one that was
+killed left the same."""
 ownLaws = ['rough', 'yielding']
 moving = ['smooth', 'wet', 'joints', *ownLaws, 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken', 'edited']
 
@@ -93,11 +94,11 @@ def farthest(one, other):
 
 
 agreement = 1e-9
-"""Largest distance of equal places, as a part of a body's size. Forces of several ranks are added up in another order, and bodies of the heap still move, at
-some 1 m/s: what rounding changes grows."""
+"""Largest distance of equal places, as a part of a body's size. Forces of several ranks are added up in another order, and bodies of the
+heap still move, at some 1 m/s: what rounding changes grows."""
 sameForce = 1e-8
-"""Largest difference of equal forces, as a part of the largest force. Where friction slips and turns at once, a few returns to its strength in 100 000
-change the force by so much for a load that differs by rounding alone."""
+"""Largest difference of equal forces, as a part of the largest force. Where friction slips and turns at once, a few returns to its strength
+in 100 000 change the force by so much for a load that differs by rounding alone."""
 
 
 def same(one, several, bodies=24):

@@ -6,7 +6,8 @@ from test_extensions import built, inYade, project
 
 
 def testTheForceActsOnTheFirstBodysSurface():
-	"""The force of a tilted block whose edge is in the floor acts in the floor's plane, where the plug-in's own point is not; and a block rests on it."""
+	"""The force of a tilted block whose edge is in the floor acts in the floor's plane, where the plug-in's own point is not; and a block
+	rests on it."""
 	library = built('ownPoint')
 	script = """
 from yade import polytope
@@ -66,8 +67,8 @@ def wrong():
 
 @pytest.mark.parametrize('fault', ['point', 'normal', 'depth', 'arm', 'area', 'geometry'])
 def testAResultThatIsNoContactIsCounted(fault, wrong):
-	"""A point or arm that is no number, a normal that is no unit vector, an infinite depth, a negative area, no geometry: a status and counters of the functor,
-	which check tells of; no force."""
+	"""A point or arm that is no number, a normal that is no unit vector, an infinite depth, a negative area, no geometry: a status and
+	counters of the functor, which check tells of; no force."""
 	script = """
 from yade import polytope
 polytope.load(sys.argv[1])
@@ -91,7 +92,8 @@ answer([before, good, stats['failures'], stats['statuses']['failed'], c.geom.sta
 
 
 def testABlockRestsOnTwoBeamsOfAGrid(tmp_path):
-	"""Forces of the four nodes are the block's weight, shared as the lever says; arrays and VTK files know the contacts; loaded again, it rests on."""
+	"""Forces of the four nodes are the block's weight, shared as the lever says; arrays and VTK files know the contacts; loaded again, it
+	rests on."""
 	library = built('gridPair')
 	script = """
 from yade import polytope, Quaternion
@@ -133,8 +135,8 @@ answer([found, [float(O.forces.f(k)[2]) / weight for k in range(6)], [float(x) f
 
 
 def testAContactByMarginsAsksDerivedClassesToo():
-	"""A beam of a grid meets a rounded polytope by the functor for polytopes, with both margins; check has nothing to say of it. Where that functor is missing it names it, and where it is there
-	it does not."""
+	"""A beam of a grid meets a rounded polytope by the functor for polytopes, with both margins; check has nothing to say of it. Where that
+	functor is missing it names it, and where it is there it does not."""
 	script = """
 from yade import polytope
 from yade.gridpfacet import gridNode, gridConnection

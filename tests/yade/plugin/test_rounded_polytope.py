@@ -120,7 +120,8 @@ answer(seen)
 
 
 def testAPileRestsAtItsClosedForm(rounded):  # noqa: F811
-	"""A sharp cube on a rounded one on a wall, under the plug-in's own engines with these contacts: stiffness times depth is the weight above, upright, and nothing is found wrong."""
+	"""A sharp cube on a rounded one on a wall, under the plug-in's own engines with these contacts: stiffness times depth is the weight
+	above, upright, and nothing is found wrong."""
 	script = (
 		start
 		+ """
@@ -144,8 +145,8 @@ answer([found, mass, *depths, max(float(2 * math.acos(min(1, abs(body.state.ori[
 
 
 def testEnginesHaveTheContactsOfTheExtension(rounded):  # noqa: F811
-	"""Those for pairs of the scene's shapes, beside the plug-in's own: a body rests on a wall at its closed form without a list of functors; a sphere's are there where there is
-	a sphere; settings of the contact are kept."""
+	"""Those for pairs of the scene's shapes, beside the plug-in's own: a body rests on a wall at its closed form without a list of
+	functors; a sphere's are there where there is a sphere; settings of the contact are kept."""
 	script = (
 		start
 		+ """
@@ -254,8 +255,8 @@ answer(seen)
 
 
 def testMassFrameAndDrawingAreThoseOfTheSum(rounded, tmp_path):  # noqa: F811
-	"""A cube's volume and moment by Steiner's formula; a tetrahedron without symmetry, whose sum with a ball has another centroid; faces of pictures and VTK files; and all
-	of it again in a new process that loads the scene."""
+	"""A cube's volume and moment by Steiner's formula; a tetrahedron without symmetry, whose sum with a ball has another centroid; faces of
+	pictures and VTK files; and all of it again in a new process that loads the scene."""
 	saved = tmp_path / 'scene.yade'
 	script = (
 		start
@@ -292,7 +293,8 @@ answer([float(body.shape.volume), [float(x) for x in body.state.inertia], float(
 
 
 def testAThinPrismIsARoundedSegmentOrTriangle(rounded):  # noqa: F811
-	"""What docs/extending.md says of cores without an interior: the volume is that of a cylinder with two half balls, contacts have their closed forms, and flat points are refused."""
+	"""What docs/extending.md says of cores without an interior: the volume is that of a cylinder with two half balls, contacts have their
+	closed forms, and flat points are refused."""
 	script = (
 		start
 		+ """
@@ -373,7 +375,8 @@ def rest(q, steps):  # largest kinetic energy, that at the end over it, way of t
 
 @pytest.mark.parametrize('below', ['sharp', 'wall', 'round'])
 def testItComesToRestOnItsFace(rounded, below):  # noqa: F811
-	"""Let fall with a tilt, margins from below the depth of the contact to near the size of the core, in space and, with what leads out of it blocked, in a plane: still to 1e-12 of its energy, upright, with its weight on the face."""
+	"""Let fall with a tilt, margins from below the depth of the contact to near the size of the core, in space and, with what leads out of
+	it blocked, in a plane: still to 1e-12 of its energy, upright, with its weight on the face."""
 	script = (
 		resting
 		+ """
@@ -409,8 +412,9 @@ answer(seen)
 
 
 def testItRocksWithoutGainOrLoss(rounded):  # noqa: F811
-	"""On faces, edges and corners in turn, without friction and dampers: whenever it is in the air it has the energy that it had at first, of that above rest, which is a hundredth of a body's height, to
-	the order of its tilt. With a point that does not belong to the depth it would gain or lose most of it."""
+	"""On faces, edges and corners in turn, without friction and dampers: whenever it is in the air it has the energy that it had at first,
+	of that above rest, which is a hundredth of a body's height, to the order of its tilt. With a point that does not belong to the depth it
+	would gain or lose most of it."""
 	script = (
 		resting
 		+ """

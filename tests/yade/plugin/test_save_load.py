@@ -264,7 +264,8 @@ def testDamagedArchivesAreRefused(tmp_path):
 
 
 def testARunIsContinuedWhateverYadeIsBuiltWith(tmp_path):
-	"""A state may come from a run on several processes, and what stood for these is erased. YADE's wider precisions are built without MPI: bodies have no subdomain there."""
+	"""A state may come from a run on several processes, and what stood for these is erased. YADE's wider precisions are built without MPI:
+	bodies have no subdomain there."""
 	O.materials.append(RockJointMat(density=2600, normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.4))
 	O.bodies.append([polytope.cuboid((0, 0, -0.5), (1, 1, 0.5), fixed=True), polytope.cuboid((0, 0, 0.499), (0.4, 0.4, 0.5))])
 	O.engines = polytope.engines() + [polytope.checkpoint(str(tmp_path / 'run'), iterPeriod=2, onSignal=False)]

@@ -54,8 +54,8 @@ def loop():
 
 
 def testRodsHaveTheirClosedForms(rods):
-	"""Depth, normal and point beside walls, spheres, boxes and each other: along a face, over an edge, at a corner, crossed, side by side, in a row, and with the segment itself in
-	a box."""
+	"""Depth, normal and point beside walls, spheres, boxes and each other: along a face, over an edge, at a corner, crossed, side by side,
+	in a row, and with the segment itself in a box."""
 	script = (
 		startOfRods
 		+ """
@@ -121,7 +121,8 @@ answer([failures(lambda: rod((0, 0, 0), fixed=True), lambda: polytope.polygon([(
 
 
 def testCheckTellsOfPairsWithoutAContactBeforeTheRun(rods):
-	"""A rod and a facet, which have a functor that is not in the loop; a rod and a shape of YADE's that no extension knows; a rod and a polygon, which is no core in space."""
+	"""A rod and a facet, which have a functor that is not in the loop; a rod and a shape of YADE's that no extension knows; a rod and a
+	polygon, which is no core in space."""
 	script = (
 		startOfRods
 		+ """
@@ -158,7 +159,8 @@ answer([found(facet, contacts), found(facet, [*contacts, Ig2_Facet_Rod_PolytopeG
 
 @pytest.mark.parametrize('value', ['nan', 'inf', '-0.1'])
 def testARadiusThatIsNoneIsToldAndCounted(rods, value):
-	"""The rod's family is derived from no class of ours: check names the body, and the pair is a failure instead of a contact, also where the box holds it."""
+	"""The rod's family is derived from no class of ours: check names the body, and the pair is a failure instead of a contact, also where
+	the box holds it."""
 	script = (
 		startOfRods
 		+ """
@@ -222,7 +224,8 @@ def pushes():
 
 
 def testARodRestsOnTwoBlocks(rods, tmp_path):
-	"""Under the engines that polytope.engines() chooses: half of the weight on each, no finding; and on in a new process, which has the extension from the environment."""
+	"""Under the engines that polytope.engines() chooses: half of the weight on each, no finding; and on in a new process, which has the
+	extension from the environment."""
 	saved = tmp_path / 'rod.yade.bz2'
 	script = (
 		restingRod
@@ -287,7 +290,8 @@ physics = Ip2_RockJointMat_RockJointMat_RockJointPhys
 
 
 def testAnEllipsoidHasItsClosedForms(ellipsoid, tmp_path):
-	"""Mass and moments; depth and the geometry's own attribute on a floor, turned, and of two of them tip to tip; arrays; at rest on the floor; and from a saved scene in a new process."""
+	"""Mass and moments; depth and the geometry's own attribute on a floor, turned, and of two of them tip to tip; arrays; at rest on the
+	floor; and from a saved scene in a new process."""
 	saved = tmp_path / 'ellipsoid.yade.bz2'
 	script = (
 		startOfEllipsoids
@@ -437,7 +441,8 @@ def block(center, orientation, radius):
 
 
 def testAFamilyWithoutBounds(plane):
-	"""A slope far from the body's place, beside a rounded block, a polytope and a sphere: depth along its normal; the block rests on it, below the angle of friction, and slides above it."""
+	"""A slope far from the body's place, beside a rounded block, a polytope and a sphere: depth along its normal; the block rests on it,
+	below the angle of friction, and slides above it."""
 	script = (
 		startOfPlanes
 		+ """
@@ -478,7 +483,8 @@ answer([seen, ways, found])
 
 
 def testTheStepBeforeContactKnowsTheLargestTangent(plane):
-	"""A law that begins 100 times as stiff as the material says has a tenth of the step of one that begins with that stiffness, and a block that is dropped leaves no faster than it came."""
+	"""A law that begins 100 times as stiff as the material says has a tenth of the step of one that begins with that stiffness, and a block
+	that is dropped leaves no faster than it came."""
 	script = (
 		startOfPlanes
 		+ """

@@ -323,7 +323,8 @@ def testRockingLosesAsThePageSays(runs, capsys):
 
 
 def testRestitutionIsThatOfTheClosedForm(runs, capsys):
-	"""The table of docs/stiffness.md is what is printed. A face has a constant stiffness: with shorter steps its restitution is that of the theory."""
+	"""The table of docs/stiffness.md is what is printed. A face has a constant stiffness: with shorter steps its restitution is that of the
+	theory."""
 	names = runs('restitution', shorter={"(0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7)": '(0.1, 0.5)'})
 	printed = [line.split() for line in capsys.readouterr().out.splitlines() if re.match(r' *0\.', line)]
 	page = (folder.parent / 'docs/stiffness.md').read_text()

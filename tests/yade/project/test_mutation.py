@@ -134,7 +134,8 @@ for name in sys.argv[-1].split('=')[1].split(':'):
 	if mutant == 4: bytearray(1 << 40)
 	if 'POLYTOPE_MUTANTS_REACHED' in os.environ: open(os.environ['POLYTOPE_MUTANTS_REACHED'], 'w').write('1 2 3 4 5' if name == 'Sum.Slow' else '2 3 4')
 '''
-"""Program with two tests. Mutants: 1 fails the slow one, 2 crashes, 3 does not end, 4 wants too much memory, 5 is noticed by none, 6 is not reached."""
+"""Program with two tests. Mutants: 1 fails the slow one, 2 crashes, 3 does not end, 4 wants too much memory, 5 is noticed by none, 6 is not
+reached."""
 
 
 def testVerdicts(tmp_path, monkeypatch):

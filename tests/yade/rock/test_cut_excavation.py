@@ -219,7 +219,8 @@ def testBondsAreSharedByTheirArea(flat, bonded):
 
 
 def hangsBetweenWalls(strength, flat):
-	"""A block 2 m high and 1 m wide between fixed walls that press it, on a fixed base that bears it. Joints of its upper half can bear this multiple of the half's weight."""
+	"""A block 2 m high and 1 m wide between fixed walls that press it, on a fixed base that bears it. Joints of its upper half can bear
+	this multiple of the half's weight."""
 	weight, pressure, friction = density * gravity, 2e4, math.radians(20)
 	material(frictionAngle=friction, cohesion=strength * weight / 2 - pressure * math.tan(friction))
 	if flat:
@@ -532,8 +533,8 @@ def testAJointThatStiffensAsItClosesBearsThePartsWeight():
 
 
 def testAJointThatStiffensAsItClosesKeepsItsEnergy():
-	"""Half of what the joint can close by is closed. The part is on the whole face: its joint has the energy of the whole's, at once and in the next step, and no energy comes or goes
-	then: hyperbola's ∫ σ dδ = −k A δₘ² (δ/δₘ + ln(1 − δ/δₘ))."""
+	"""Half of what the joint can close by is closed. The part is on the whole face: its joint has the energy of the whole's, at once and in
+	the next step, and no energy comes or goes then: hyperbola's ∫ σ dδ = −k A δₘ² (δ/δₘ + ln(1 − δ/δₘ))."""
 	most = 1e-4
 	onFloor(closure=HyperbolicClosure(maximumClosure=most))
 	O.bodies[1].state.pos = (0, 0, 1 - most / 2)
@@ -640,9 +641,10 @@ half, remaining, sideways, overburden = math.radians(25), 2.0, 5e4, 3e4
 
 
 def roofPrism(flat, friction):
-	"""Two joints that meet 5 m above a floor make a prism in fixed rock, under a stress; its lower 3 m are cut out, and then it gets its weight. Returns what is left, the
-	vertical axis, and of the closed form a joint's length L, the settlement and the mean normal and shear stress of the joints, by the springs of both: u = (V b + W) / (2 L (kₙ sin²α + kₛ cos²α)), V the
-	vertical stress, b the width at the cut, W the weight."""
+	"""Two joints that meet 5 m above a floor make a prism in fixed rock, under a stress; its lower 3 m are cut out, and then it gets its
+	weight. Returns what is left, the vertical axis, and of the closed form a joint's length L, the settlement and the mean normal and shear
+	stress of the joints, by the springs of both: u = (V b + W) / (2 L (kₙ sin²α + kₛ cos²α)), V the vertical stress, b the width at the
+	cut, W the weight."""
 	stiff, soft = 2e9, 1e9
 	material(normalStiffness=stiff, shearStiffness=soft, frictionAngle=friction)
 	up = 1 if flat else 2

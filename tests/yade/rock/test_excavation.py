@@ -79,7 +79,8 @@ def testALegThatIsRelaxedDoesNot(flat, over):
 
 
 def heldBySides(strength):
-	"""A cube of 1 m between fixed walls that press it, on a fixed base that bears its weight. Its joints can bear this multiple of the weight, by brittle cohesion and friction."""
+	"""A cube of 1 m between fixed walls that press it, on a fixed base that bears its weight. Its joints can bear this multiple of the
+	weight, by brittle cohesion and friction."""
 	weight, pressure = density * gravity, 2e4
 	friction = math.radians(20)
 	cohesion = strength * weight / 2 - pressure * math.tan(friction)

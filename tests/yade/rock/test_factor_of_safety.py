@@ -42,7 +42,8 @@ def testPlaneFailure(flat, reduce, theory):
 
 
 def holds(found, theory, tolerance, rest=1 / 20):
-	"""Whether the bracket has the closed form in it, to this part of the tolerance, by default that at which blocks are at rest, and is as narrow as was asked."""
+	"""Whether the bracket has the closed form in it, to this part of the tolerance, by default that at which blocks are at rest, and is as
+	narrow as was asked."""
 	rest = tolerance * rest
 	return found.stable * (1 - rest) < theory < found.failed * (1 + rest) and found.failed / found.stable <= 1 + tolerance
 
@@ -61,7 +62,8 @@ def testTheBracketOfPlaneFailureHoldsTheClosedForm(share, flat, theory):
 @pytest.mark.filterwarnings('ignore:gravity at once')
 @pytest.mark.parametrize('weak', [0, 1])
 def testBlocksOnASlopeThatSwingIfStrengthFallsAtOnce(weak):
-	"""Twelve blocks, on a bedding through the toe of a face, with soft joints: a trial from far below the limit fails there by the swing alone. From larger strengths than the limit's, and from smaller ones."""
+	"""Twelve blocks, on a bedding through the toe of a face, with soft joints: a trial from far below the limit fails there by the swing
+	alone. From larger strengths than the limit's, and from smaller ones."""
 	steep, angle = math.radians(35), math.radians((45, 30)[weak])
 	blockMaterial(density=2600, normalStiffness=1e8, shearStiffness=5e7, frictionAngle=angle)
 	face = math.radians(65)
@@ -79,7 +81,8 @@ def testBlocksOnASlopeThatSwingIfStrengthFallsAtOnce(weak):
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
 def testOnSoftJointsABlockLeansAndCarriesASteeperOne():
-	"""A block turns by M/(kₙ I) against the one below. So the joint between two, in the middle between their faces, is steeper: tan φ/tan(35° + θ). In the plane, of unit width."""
+	"""A block turns by M/(kₙ I) against the one below. So the joint between two, in the middle between their faces, is steeper: tan
+	φ/tan(35° + θ). In the plane, of unit width."""
 	steep, angle, high, soft = math.radians(35), math.radians(30), 0.3, 1e7
 	blockMaterial(density=2600, normalStiffness=soft, shearStiffness=soft, frictionAngle=angle)
 	O.bodies.append(polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True))
@@ -195,7 +198,8 @@ def testWhatHangsByTension(bonded):
 
 
 def limitOfTwoBlocks(upper, lower, steep, gentle, angle):
-	"""Factor at which a block on a steep plane pushes another one along a gentle one, with a vertical joint between them: all three joints at their strength.
+	"""Factor at which a block on a steep plane pushes another one along a gentle one, with a vertical joint between them: all three joints
+	at their strength.
 
 	:param upper, lower: weights
 	"""
@@ -213,7 +217,8 @@ def limitOfTwoBlocks(upper, lower, steep, gentle, angle):
 
 
 def pushing(angle):
-	"""Two blocks at rest, in the plane; (steep, gentle) of their planes. The joint between the blocks ends above the kink, where the upper one would be held by the gentle plane."""
+	"""Two blocks at rest, in the plane; (steep, gentle) of their planes. The joint between the blocks ends above the kink, where the upper
+	one would be held by the gentle plane."""
 	steep, gentle, high, long, above = math.radians(50), math.radians(10), 1.0, 2.0, 0.05
 	back, down, along = high / math.tan(steep), math.tan(gentle), above / math.tan(steep)
 	blockMaterial(density=2600, frictionAngle=math.radians(angle), normalStiffness=1e10, shearStiffness=1e10)
@@ -313,7 +318,8 @@ def testASceneThatFailsByItsFirstSwingAloneIsRefused():
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
 def testABoltThatYieldsHoldsAsFarAsTheBlockMayMove():
-	"""Grouted, without pretension; the steel yields over its free length, and turns with the way u along the joint: T acts by u/√(u² + l²) along it. It fails at u = size/50."""
+	"""Grouted, without pretension; the steel yields over its free length, and turns with the way u along the joint: T acts by u/√(u² + l²)
+	along it. It fails at u = size/50."""
 	steep, angle, free, yields, load = math.radians(38), math.radians(42), 0.1, 3e4, 2500 * gravity * 2
 	blockMaterial(density=2500, normalStiffness=2e9, shearStiffness=2e9, frictionAngle=angle)
 	O.bodies.append(polytope.cuboid((0, 0, -3), (20, 5, 3), fixed=True))
@@ -336,7 +342,8 @@ def testABoltThatYieldsHoldsAsFarAsTheBlockMayMove():
 @pytest.mark.parametrize('inclination', [90, 80])
 @pytest.mark.parametrize('without', [0.85, 1.05])
 def testAPassiveBoltAcrossTheJoint(without, inclination):
-	"""Without grout; at a right angle to the joint it bears nothing before the block has moved, and its yield force after 11 mm, of 16 mm that it may move. The closed form of docs/support.md."""
+	"""Without grout; at a right angle to the joint it bears nothing before the block has moved, and its yield force after 11 mm, of 16 mm
+	that it may move. The closed form of docs/support.md."""
 	steep, lean, load = math.radians(38), math.radians(inclination), 2600 * gravity * 0.5
 	yields = 0.2 * load
 	blockMaterial(density=2600, shearStiffness=5e8, frictionAngle=math.atan(without * math.tan(steep)))

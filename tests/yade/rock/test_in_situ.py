@@ -161,7 +161,8 @@ def testBlocksAtTheRegionsBoundaryMayBeTheFixedOnes():
 
 
 def testFlushPiecesOfASupportStayFlush():
-	"""A piece that blocks meet along an edge alone moves with its neighbours' faces: a step as high as the contact is deep would come and go, and thin blocks beside it would never rest."""
+	"""A piece that blocks meet along an edge alone moves with its neighbours' faces: a step as high as the contact is deep would come and
+	go, and thin blocks beside it would never rest."""
 	material()
 	for x in (0, 1):
 		cuboid((x, 0, 0), (x + 1, 1, 1), fixed=x == 1)

@@ -83,7 +83,8 @@ def testAFactorBelowOne(joint, theory):
 @pytest.mark.parametrize('flat', [False, True])
 @pytest.mark.parametrize('short', [1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 0, -1e-8])
 def testAFactorBesideOneThatIsTried(flat, short):
-	"""A back-analysis gives strengths for a factor of 1, rounded: there the bounds on the lack of strength do not meet before rounding ends the steps."""
+	"""A back-analysis gives strengths for a factor of 1, rounded: there the bounds on the lack of strength do not meet before rounding ends
+	the steps."""
 	blockOnSlope(dip, (0.5, 0.5, 0.1), flat, frictionAngle=math.atan((1 - short) * math.tan(dip)))
 	expect(polytope.limitAnalysis(tolerance=fine), 1 - short)
 
@@ -174,7 +175,8 @@ def limitOfTranslation(load, planes):
 
 
 def onTwoPlanes(strengths):
-	"""A wedge of Hoek & Bray on planes of 45/105 and 70/235, of these (cohesion, friction angle [°]): (its id, upward normals of the planes, their line, downward, its weight)."""
+	"""A wedge of Hoek & Bray on planes of 45/105 and 70/235, of these (cohesion, friction angle [°]): (its id, upward normals of the
+	planes, their line, downward, its weight)."""
 	one, two, face, top = map(normalOf, ((45, 105), (70, 235), (65, 185), (12, 195)))
 	for label, (cohesion, angle) in zip('ABW', (*strengths, (1e9, 80)), strict=True):
 		blockMaterial(label=label, density=2600, frictionAngle=math.radians(angle), cohesion=cohesion)
@@ -189,7 +191,8 @@ def onTwoPlanes(strengths):
 
 
 def testAWedge():
-	"""Limit equilibrium without shear across the line of intersection gives 1.877. The limit analysis gives the most that forces within the strengths of both planes can hold."""
+	"""Limit equilibrium without shear across the line of intersection gives 1.877. The limit analysis gives the most that forces within the
+	strengths of both planes can hold."""
 	wedge, (one, two), line, load = onTwoPlanes([(24e3, 20), (48e3, 30)])
 	found = polytope.limitAnalysis(tolerance=fine)
 	areas = {bond.id1: float(bond.area) for bond in PolytopeBonds().find([], -1, 0.01, anyBond())}
@@ -232,7 +235,8 @@ def columnsOnSteps(angle):
 
 
 def testColumnsThatToppleStandAtLessFrictionThanRealOnes():
-	"""Joints that slip open: columns jam, and stand at 33.4° in place of the 38.13° of limit equilibrium; a linear program of its own for the plane says the same."""
+	"""Joints that slip open: columns jam, and stand at 33.4° in place of the 38.13° of limit equilibrium; a linear program of its own for
+	the plane says the same."""
 	columnsOnSteps(45)
 	found = polytope.limitAnalysis(tolerance=fine)
 	corners = [[(float(x), float(y)) for x, y in cornersOf(body)] for body in O.bodies]
@@ -484,8 +488,8 @@ def testThatOfStrengthReduction():
 
 
 def testABlockThatTwistsOnItsBase():
-	"""The block twists about its middle, which cannot move: cohesion at the four corners bears c b³/√2, 1.85 times what it would over the face, as the
-	page says."""
+	"""The block twists about its middle, which cannot move: cohesion at the four corners bears c b³/√2, 1.85 times what it would over the
+	face, as the page says."""
 	block = blockOnSlope(0.0, (0.5, 0.5, 0.5), frictionAngle=0, cohesion=1e5)
 	O.bodies[block].state.blockedDOFs = 'xyzXY'
 	O.forces.setPermT(block, (0, 0, 4e4))
@@ -507,7 +511,8 @@ def testThePackageThatLacksIsNamed(monkeypatch):
 	+ [((1e9, strength, 2e4), plate, end) for strength in (1e5, 2e4) for plate, end in ((True, -0.41), (False, -0.9), (True, -1.5))],
 )
 def testABoltAcrossAJoint(grout, plate, end):
-	"""A block on a slope with a bolt at a right angle to the joint: tan φ (W cos ψ + T) / (W sin ψ − V), T of steel or of the grout in rock below, or, without a plate, in the 0.8 m above, V of the dowel."""
+	"""A block on a slope with a bolt at a right angle to the joint: tan φ (W cos ψ + T) / (W sin ψ − V), T of steel or of the grout in rock
+	below, or, without a plate, in the 0.8 m above, V of the dowel."""
 	dip, yields, free = math.radians(40), 3e4, 0.02
 	blockOnSlope(dip, (0.5, 0.5, 0.5), False, frictionAngle=math.radians(30))
 	support = (

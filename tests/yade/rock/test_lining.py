@@ -139,7 +139,8 @@ def testARingUnderPressureHasTheNormalForceOfTheBoilerFormula(dimension):
 
 @pytest.mark.parametrize('dimension', **plane)
 def testARingOpensByItsBendingUnderTwoOppositeForces(dimension):
-	"""Thin ring of radius r, forces P at the ends of a diameter: M = P r/π under them with tension inside, P r (1/2 - 1/π) at right angles with tension outside."""
+	"""Thin ring of radius r, forces P at the ends of a diameter: M = P r/π under them with tension inside, P r (1/2 - 1/π) at right angles
+	with tension outside."""
 	start(dimension, gravity=0)
 	number, radius, load = 48, 3.0, 1e4
 	made = polytope.lining(**along(ringPoints(number, radius), dimension), side='middle', closed=True, **beam)
@@ -198,7 +199,8 @@ def testALiningHangsOnARoofByItsAdhesion(dimension, part, holds):
 
 @pytest.mark.parametrize('part, holds', [(1.05, True), (0.95, False)])
 def testALiningHangsOnAWallByTheShearStrengthOfItsAdhesion(part, holds):
-	"""One segment beside a fixed wall, as high as it is thick many times: the moment of its weight about the wall is left out by the share of bending."""
+	"""One segment beside a fixed wall, as high as it is thick many times: the moment of its weight about the wall is left out by the share
+	of bending."""
 	start(2)
 	block((0, 0), (1, 2), 2, fixed=True)
 	made = polytope.lining([(0, 0), (0, 2)], side='left', adhesion=Adhesion(inf, part * density * g * thickness), **beam)

@@ -101,8 +101,8 @@ def testAWaveThatComesInIsTwiceAsLargeAtTheFreeEndAndLeaves(direction, speed):
 
 
 def energyLeft(quiet, number=11):
-	"""Energy of the motion of a square mass of joined blocks, struck in its middle, when waves have crossed it three times, over that at first; no side
-	is held."""
+	"""Energy of the motion of a square mass of joined blocks, struck in its middle, when waves have crossed it three times, over that at
+	first; no side is held."""
 	O.materials.append(
 		RockJointMat(density=density, normalStiffness=kn, shearStiffness=ks, frictionAngle=0.5, cohesion=1e9, tensileStrength=1e9)
 	)

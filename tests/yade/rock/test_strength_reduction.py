@@ -46,7 +46,8 @@ def testABlockOnASlopeWithCohesion(residual, perArea):
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
 def testCohesionActsOnWhatIsPressed():
-	"""The weight of a block half as high as wide acts outside the middle third of the base: three times the way from there to the lower edge is pressed."""
+	"""The weight of a block half as high as wide acts outside the middle third of the base: three times the way from there to the lower
+	edge is pressed."""
 	dip, friction, cohesion = radians(40), radians(30), 6e3
 	numbers = slope(dip, [dict(frictionAngle=friction, cohesion=cohesion, residualCohesion=cohesion)], half=0.25)
 	polytope.settle()

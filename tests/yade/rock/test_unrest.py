@@ -227,7 +227,8 @@ def testBlocksThatFallTogetherOnSomethingAreWaitedFor(flat):
 
 
 def testABlockThatHangsByASoftBondIsWaitedFor(recwarn):
-	"""It sinks by more than its size, W/(kₙ A), with nothing below, from one that cannot move; the bond holds it, so it is not named as one that fell."""
+	"""It sinks by more than its size, W/(kₙ A), with nothing below, from one that cannot move; the bond holds it, so it is not named as one
+	that fell."""
 	joint(normalStiffness=1e4, shearStiffness=1e4, tensileStrength=1e9, cohesion=1e9)
 	holds, hangs = (O.bodies.append(polytope.cuboid((0, 0, z), (0.25, 0.25, 0.25))) for z in (0, -0.5))
 	O.bodies[holds].state.blockedDOFs = 'xyzXYZ'

@@ -151,7 +151,8 @@ def faceOf(number, *outward):
 
 
 def hoekBray(flat, waterInCrack):
-	"""Rock above a plane of 35° in a face of 60° and 60 m, behind it a tension crack of 14 m; the toe is the origin. (block, weight, length of the plane, uplift, thrust)."""
+	"""Rock above a plane of 35° in a face of 60° and 60 m, behind it a tension crack of 14 m; the toe is the origin. (block, weight, length
+	of the plane, uplift, thrust)."""
 	high, face, plane, crack, cohesion, friction = 60.0, radians(60), radians(35), 14.0, 1e5, radians(35)
 	back = (high - crack) / tan(plane)
 	rock(density=26e3 / gravity, frictionAngle=friction, cohesion=cohesion, residualCohesion=cohesion)
@@ -198,7 +199,8 @@ def testTheSlopeOfHoekAndBrayWithWaterInItsTensionCrack(flat):
 @pytest.mark.parametrize('margin', [0.99, 1.01])
 @pytest.mark.filterwarnings('ignore:soft joint')  # of a slice of 1 m, across it
 def testADamSlidesAtItsFactorWithUplift(drained, margin):
-	"""(W − U) tan φ / H: thrust of 9 m of water, uplift under the base that falls to zero at the toe, with a drain 2 m from the heel to a third of it there."""
+	"""(W − U) tan φ / H: thrust of 9 m of water, uplift under the base that falls to zero at the toe, with a drain 2 m from the heel to a
+	third of it there."""
 	wide, high, deep = 8.0, 10.0, 9.0
 	pressures = [((0, 0, 0), weight * deep), ((2, 0, 0), weight * deep / 3), ((wide, 0, 0), 0)]
 	uplift, thrust = weight * (21 if drained else 36), weight * deep**2 / 2
@@ -245,7 +247,8 @@ def testABlockUnderWaterPressesWithItsEffectiveWeight(flat):
 @pytest.mark.parametrize('flat', [False, True])
 @pytest.mark.parametrize('margin', [0.98, 1.02])
 def testALayerOfBlocksWithSeepageAlongTheSlope(margin, flat):
-	"""Infinite slope with water up to its surface that flows along it (Taylor 1948): p = ρ g d cos β at the depth d across it, factor (γ − γ_w) tan φ / (γ tan β)."""
+	"""Infinite slope with water up to its surface that flows along it (Taylor 1948): p = ρ g d cos β at the depth d across it, factor (γ −
+	γ_w) tan φ / (γ tan β)."""
 	slope, deep, wide, number = radians(15), 2.0, 3.0, 5
 	rock(density=2200, frictionAngle=np.arctan(margin * 2200 / (2200 - density) * tan(slope)))
 	up = Vector3(0, flat, not flat)
@@ -269,7 +272,8 @@ def testALayerOfBlocksWithSeepageAlongTheSlope(margin, flat):
 
 
 def testBelowATableThatSlopesWaterPushesDownTheSlope():
-	"""−∫ grad p dV: ρ g V upwards and ρ g V times the slope towards the lower side, across a kink the sum of both parts; of a section, and of triangles."""
+	"""−∫ grad p dV: ρ g V upwards and ρ g V times the slope towards the lower side, across a kink the sum of both parts; of a section, and
+	of triangles."""
 	rock()
 	number = O.bodies.append(polytope.cuboid((0.25, 0.1, -4), (1, 1, 1)))
 	O.engines = polytope.engines()

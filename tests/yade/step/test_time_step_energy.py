@@ -23,7 +23,8 @@ def correct(body, change):
 
 
 def bounce(part, corrected=False):
-	"""A cube that falls flat on a floor, without damping; half-way in, the step becomes half of what it was, a part of 1/ω. Returns the energy that it gains, and what the change of the step says, over what it had."""
+	"""A cube that falls flat on a floor, without damping; half-way in, the step becomes half of what it was, a part of 1/ω. Returns the
+	energy that it gains, and what the change of the step says, over what it had."""
 	O.reset()
 	joint(normalStiffness=stiffness, frictionAngle=0)
 	loop(perArea=True)

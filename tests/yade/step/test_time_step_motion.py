@@ -87,7 +87,8 @@ def testTwoThatFlyAtEachOther():
 
 
 def testATrayThatMovesFast():
-	"""With what lies on it, at 150 m/s past a wall beside it: the step is that at rest, where its motion would give 3e-6 s, and the grains stay where they lie."""
+	"""With what lies on it, at 150 m/s past a wall beside it: the step is that at rest, where its motion would give 3e-6 s, and the grains
+	stay where they lie."""
 
 	def tray(speed):
 		floor((speed, 0, 0))

@@ -49,7 +49,8 @@ def testStepIsThereBeforeTheFirstMotion():
 
 @pytest.mark.parametrize('model, stiffest', [('boon2012', 7), ('surface', 8)])
 def testBeforeAContactAFlatFaceOfASpringIsStifferThanACorner(model, stiffest):
-	"""A flat triangle of width b on its side: I = m b²/24, so with k at a corner κ = k/m (1 + (b/2)²/(b²/24)), of its base rocking as a spring 4 k b²/12 over I."""
+	"""A flat triangle of width b on its side: I = m b²/24, so with k at a corner κ = k/m (1 + (b/2)²/(b²/24)), of its base rocking as a
+	spring 4 k b²/12 over I."""
 	joint()
 	loop(gravity=(0, -gravity, 0), ig2=contactOf(model, perArea=False))
 	stepper()

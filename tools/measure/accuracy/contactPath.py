@@ -33,9 +33,10 @@ surfaces = foundation, spring
 pressed = 'edge pressed deeper than the corner radius'
 flat = 'slide, face on face, to beyond the edge'
 ridge = {foundation: 2 * deep, spring: 1e-5}
-"""Largest jump of a contact surface, and largest difference of its warm and cold answers: where sides of both cubes come into line, planes coincide, and the energy
-has a ridge (docs/contact-surface.md). There the rim of a foundation's face of edges a, b at the overlap h begins to push sideways with K b h²/2 where the face
-pushes with K (a b h − (a + b) h²/2): the force turns by some h/2a, half of this limit, and changes by some more of the path's mean force, where that is less."""
+"""Largest jump of a contact surface, and largest difference of its warm and cold answers: where sides of both cubes come into line, planes
+coincide, and the energy has a ridge (docs/contact-surface.md). There the rim of a foundation's face of edges a, b at the overlap h begins
+to push sideways with K b h²/2 where the face pushes with K (a b h − (a + b) h²/2): the force turns by some h/2a, half of this limit, and
+changes by some more of the path's mean force, where that is less."""
 units = {'point': 'edges', 'normal': 'rad', 'force': 'mean force'}
 
 

@@ -113,8 +113,9 @@ class Scenes:
 		return {method: self.run(method=method, **heap) for method in tqdm(('ours', 'spheres'), desc=f'settled heap of {number}')}
 
 	def sizes(self, large):
-		"""Settled cubes, and YADE's spheres of the same volume, all engines: {number: {method: result}} twice. First in the run in which they have settled:
-		contacts that came and went lie anywhere in memory. Then loaded by a new process, where they lie one after the other."""
+		"""Settled cubes, and YADE's spheres of the same volume, all engines: {number: {method: result}} twice. First in the run in which
+		they have settled: contacts that came and went lie anywhere in memory. Then loaded by a new process, where they lie one after the
+		other."""
 		numbers = (500,) if self.quick else (2000, 20000, 100000) if large else (2000, 20000)
 		settled, loaded = {}, {}
 		with tempfile.TemporaryDirectory() as folder:

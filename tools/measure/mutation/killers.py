@@ -73,7 +73,8 @@ class CoreTests:
 		return names
 
 	def measure(self, say):
-		"""Times and reach of all tests. Those that an earlier call measured with the same mutants are not run again: remove the file if they changed."""
+		"""Times and reach of all tests. Those that an earlier call measured with the same mutants are not run again: remove the file if
+		they changed."""
 		kept = pathlib.Path(self.program + '.tests.json')
 		found = json.loads(kept.read_text()) if kept.exists() else {}
 		if found.get('mutants') == self.mutants:
@@ -101,7 +102,8 @@ class CoreTests:
 			raise RuntimeError(f'{len(self.leftOut)} tests fail without a mutant')
 
 	def verdict(self, mutant, quick=None):
-		"""Name of a test that the mutant fails, and how; None if it passes all that reach it. *quick*: only those of the first groups, or of the others."""
+		"""Name of a test that the mutant fails, and how; None if it passes all that reach it. *quick*: only those of the first groups, or
+		of the others."""
 		least = min(self.times.values())
 		names = self.reaching.get(mutant, [])
 		some = {None: groups, True: groups[:quickGroups], False: groups[quickGroups:]}[quick]

@@ -119,7 +119,8 @@ class Schemata:
 				raise RuntimeError('no mutant is to blame:\n' + done.stdout[-3000:])
 
 	def link(self, jobs, units):
-		"""The core's tests of the project's own build with these files of src/ and tests/core/, with mutants, in the place of its own; the program's path."""
+		"""The core's tests of the project's own build with these files of src/ and tests/core/, with mutants, in the place of its own; the
+		program's path."""
 		objects = {unit: objectOf(unit) for unit in units}
 		self.make(jobs, *objects.values())
 		program, own = self.build / 'testsOfUnits', project / 'build'

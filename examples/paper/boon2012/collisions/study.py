@@ -18,8 +18,8 @@ durations = {'vertexFace': 2.6, 'edgeEdge': 1.8}
 sampleSteps = 200
 """Steps between two samples of the energy."""
 riseElsewhere = {'F1': 0.0041, 'F2': 3730}
-"""Largest rise of energy between such samples in an independent program of the paper's algorithm, which has no shear damper, at the reference's settings
-[J]."""
+"""Largest rise of energy between such samples in an independent program of the paper's algorithm, which has no shear damper, at the
+reference's settings [J]."""
 riseWithoutDamping = {20: 1894.038, 200: 9256.513}
 """Steps → largest rise of F2's energy in any so many steps in that program, with a normal damper alone and no damping of YADE's [J]."""
 noticeable = 1e-3
@@ -194,7 +194,8 @@ class CollisionReport:
 	heightTolerance, energyTolerance = 1e-5, 0.01
 	"""[m], [J]"""
 	restingPlace, restingDistance = (0.472, 0.518), 0.1
-	"""Where F1 comes to rest, by an independent small program of the paper's algorithm [m]; another contact model (overlap volume) gave (0.482, 0.531)."""
+	"""Where F1 comes to rest, by an independent small program of the paper's algorithm [m]; another contact model (overlap volume) gave
+	(0.482, 0.531)."""
 	independent = {
 		'vertexFace': 'vertex 0.018 s, edge 1.02 s, face 1.76…2.03 s',
 		'edgeEdge': 'edge–edge 0.018 s, edge on face 1.01 s, parting ≈ 1.7 s',

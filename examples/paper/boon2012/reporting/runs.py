@@ -36,7 +36,8 @@ def sourceHash(project, without=(), folders=sourceFolders):
 
 @dataclasses.dataclass
 class Run:
-	"""One simulation's script, run or to be run, and its folder: findings.json from the script; run.json (options, sources, revision, machine, date) and log.txt from here."""
+	"""One simulation's script, run or to be run, and its folder: findings.json from the script; run.json (options, sources, revision,
+	machine, date) and log.txt from here."""
 
 	letter: str
 	title: str

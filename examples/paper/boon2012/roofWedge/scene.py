@@ -13,8 +13,8 @@ from ..wedges.theory import dipOf, jointForces
 __all__ = ['RoofWedge']
 
 pressingDamping = 0.3
-"""Damping of contacts in normal and shear direction while the joints close, fraction of critical. YADE's own damping reduces forces, and without contacts
-there are none: blocks that close fast would push a weightless wedge out, for good, where the shear stiffness is low."""
+"""Damping of contacts in normal and shear direction while the joints close, fraction of critical. YADE's own damping reduces forces, and
+without contacts there are none: blocks that close fast would push a weightless wedge out, for good, where the shear stiffness is low."""
 
 
 @dataclasses.dataclass

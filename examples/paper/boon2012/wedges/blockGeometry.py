@@ -9,7 +9,8 @@ import numpy as np
 __all__ = ['BlockGeometry', 'samePlane', 'touchingRoofBlocks']
 
 samePlane = 1e-6
-"""Difference up to which two planes of a geometry file are the two sides of one joint: of normals [-] and of distances over the wedge's height [-]."""
+"""Difference up to which two planes of a geometry file are the two sides of one joint: of normals [-] and of distances over the wedge's
+height [-]."""
 
 
 class BlockGeometry:

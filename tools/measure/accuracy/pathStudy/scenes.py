@@ -27,8 +27,8 @@ variants = {
 	'centroid': {'contactModel': 'boon2012', 'contactPoint': 'centroid'},
 	'analytic centre, corner radius 0': {'contactModel': 'boon2012', 'cornerRadius': 0.0},
 }
-"""Arguments of polytope.contact, and the corner radius where it is not the default: the contact surface by both units of the stiffness, and the paper's
-contact at each contact point."""
+"""Arguments of polytope.contact, and the corner radius where it is not the default: the contact surface by both units of the stiffness, and
+the paper's contact at each contact point."""
 
 planeSets = ('plain', 'touching', 'repeated')
 """Six planes a cube; with planes through all edges and vertices that cut nothing; with the planes that face each other four times."""

@@ -34,8 +34,8 @@ def onStep(contact=None, perArea=False, floor='plates', body='cube', height=0.00
 
 
 def pressedPast(speed, height=0.002, side=0.5, depth=SurfaceScene.depth):
-	"""How far at most a cube's front comes past a step's face, with a stiffness K per area: until the foundation has its kinetic energy. Further in than the
-	step is high, s, the energy grows by K b s²/2 over a way of 1, b: the cube's width. [m]"""
+	"""How far at most a cube's front comes past a step's face, with a stiffness K per area: until the foundation has its kinetic energy.
+	Further in than the step is high, s, the energy grows by K b s²/2 over a way of 1, b: the cube's width. [m]"""
 	return depth * side * speed**2 / (SurfaceScene.gravity * height**2)
 
 

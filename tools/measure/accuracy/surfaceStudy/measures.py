@@ -191,8 +191,8 @@ def slideDown(floor='plates', body='cube', contact=None, perArea=False, incline=
 	"""A body released on an incline: from its speed after the first twentieth of a second on, g (sin α − tan φ cos α).
 
 	Until the shear springs are loaded, in the first milliseconds, friction is less than it will be. A body that rocks moves up and down, so that its
-	weight on the slope, and friction, vary; while it slides, x + z tan φ of its centroid (z: height above the slope) accelerates by that all the same:
-	m x'' = m g sin α − N tan φ, m z'' = N − m g cos α. This is what is read.
+	weight on the slope, and friction, vary; while it slides, x + z tan φ of its centroid (z: height above the slope) accelerates by that
+	all the same: m x'' = m g sin α − N tan φ, m z'' = N − m g cos α. This is what is read.
 
 	:param float incline: [°]
 	:param float friction: angle φ [°]
