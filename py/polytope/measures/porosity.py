@@ -14,7 +14,7 @@ from ..pictures.faces import localVertices
 from ..scene.movers import moverOf, partsOf
 from ..scene.namedBodies import namedBodies
 
-__all__ = ['porosity', 'solidVolume', 'volumeInside', 'volumeWithin']
+__all__ = ['porosity', 'solidVolume', 'volumeInside']
 
 thin = 1e-9
 """An intersection with a box whose inscribed ball is smaller than this, over the body's size, has no volume."""
@@ -114,14 +114,6 @@ def _whole(body):
 	if not isinstance(body.shape, Polytope) or body.shape.dimension != 3:
 		raise ValueError(f'ids: body {body.id} is no polyhedron')
 	return float(body.shape.volume)
-
-
-def volumeWithin(body, lower, upper):
-	"""Volume [m³] of a polyhedron's part within the box from *lower* to *upper* [m].
-
-	:raises ValueError: naming *ids* for a body that is no polyhedron
-	"""
-	return volumeInside(body, *boxPlanes(lower, upper))
 
 
 def volumeInside(body, normals, offsets):

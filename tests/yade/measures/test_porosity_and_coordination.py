@@ -7,7 +7,12 @@ import numpy as np
 import pytest
 from scenes import gravity, joint, loop
 from yade import Matrix3, O, Quaternion, polytope, utils
-from yade.polytope.measures.porosity import volumeWithin
+from yade.polytope.bodies.halfSpaces import boxPlanes
+from yade.polytope.measures.porosity import volumeInside
+
+
+def volumeWithin(body, lower, upper):
+	return volumeInside(body, *boxPlanes(lower, upper))
 
 
 def testCubesOnALatticeHaveTheirPorosity():
