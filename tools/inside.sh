@@ -58,7 +58,7 @@ configure() { # FOLDER PRECISION
 	echo "$buildKey" >"$1/key"
 }
 
-# Whether the plug-in is compiled file by file, without optimisation (docs/developing.md): for commands that measure nothing.
+# Whether the plug-in is compiled file by file, with -O1 (docs/developing.md): for commands that measure nothing.
 developing() {
 	[ "${YADE_POLYTOPE_DEVELOP:-}" = 1 ] || return
 	case $command in build | test | yade | python | shell) ;; *) return 1 ;; esac

@@ -13,7 +13,7 @@ constexpr Real pieceBox = 4;
 /// Two planes whose normals differ by no more than this, and offsets by no more than this × size, are one plane: that is what is left of
 /// coincident planes after they have been placed in one frame, by the matrices of both rotations: a product of two that are inverse is off by up to 13
 /// roundings.
-constexpr Real twinPlanes = 16 * rounding;
+constexpr Real twinPlanes = 64 * rounding;
 
 /// Sine of the angle between two lines below which their crossing is interpolated between the ends of the line that is cut: below, the
 /// crossing loses more digits than the ends have.
