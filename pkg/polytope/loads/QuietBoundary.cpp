@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "loads/QuietBoundary.hpp"
 
-#include <core/Scene.hpp>
-#include <pkg/dem/NewtonIntegrator.hpp>
+#include "host/GravityOfScene.hpp"
 
 namespace yade {
 
 POLYTOPE_CLASSES((QuietBoundary));
 
 namespace {
-
-	Vector3r gravityOf(const Scene& scene)
-	{
-		Vector3r gravity = Vector3r::Zero();
-		for (const auto& engine : scene.engines)
-			if (const auto* integrator = dynamic_cast<const NewtonIntegrator*>(engine.get()))
-				if (!integrator->dead) gravity += integrator->gravity;
-		return gravity;
-	}
 
 	/// Acceleration by the forces that act already; zero along what is blocked.
 	Vector3r accelerationOf(const Body& body, Scene& scene, const Vector3r& force, const Vector3r& gravity)

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/TimeStepLimits.hpp"
 
-#include <pkg/dem/NewtonIntegrator.hpp>
-
 #include <src/timestep/ApproachLimit.hpp>
 
+#include "host/GravityOfScene.hpp"
 #include "shape/ShapeFamily.hpp"
 
 namespace yade {
@@ -54,10 +53,7 @@ namespace {
 
 TimeStepLimit motionLimit(const Scene& scene, Real fraction, Real below, Real steps)
 {
-	Vector3r gravity = Vector3r::Zero();
-	for (const auto& engine : scene.engines)
-		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) gravity = newton->gravity;
-
+	const Real                       gravity = gravityOf(scene).norm();
 	std::vector<polytope::MovingBox> boxes;
 	polytope::MovingBox              smallest;
 	smallest.radius = infinite;
@@ -72,14 +68,14 @@ TimeStepLimit motionLimit(const Scene& scene, Real fraction, Real below, Real st
 		boxes.push_back(box);
 	}
 	TimeStepLimit limit;
-	limit.take(math::sqrt(fraction * smallest.radius / gravity.norm()), smallest.id);
+	limit.take(math::sqrt(fraction * smallest.radius / gravity), smallest.id);
 	below = math::min(below, limit.step);
 	if (!(below < infinite) || scene.isPeriodic || isDivided(scene)) {
 		const TimeStepLimit absolute = absoluteLimit(boxes, fraction, smallest);
 		limit.take(absolute.step, absolute.body);
 	} else if (2 * fastest * below >= fraction * smallest.radius) { // else no two bodies are fast enough
 		const Real horizon = below * steps;
-		const auto nearest = polytope::approachLimit(std::move(boxes), fraction, horizon, gravity.norm() * horizon, below);
+		const auto nearest = polytope::approachLimit(std::move(boxes), fraction, horizon, gravity * horizon, below);
 		limit.take(nearest.step, nearest.id);
 	}
 	return limit;
