@@ -25,6 +25,7 @@ set(plugin_headers
 	host/CheckedAttributes.hpp
 	host/FoundInStep.hpp
 	host/InteractionLoops.hpp
+	host/PeriodOfPair.hpp
 	host/Seldom.hpp
 	host/SpringsOfScene.hpp
 	pairs/CandidateMemory.hpp

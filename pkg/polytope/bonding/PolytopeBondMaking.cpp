@@ -12,6 +12,7 @@
 #include "bonding/PolytopeBonds.hpp"
 #include "host/CheckedAttributes.hpp"
 #include "host/PartsOfBodies.hpp"
+#include "host/PeriodOfPair.hpp"
 #include "joint/RockJointPhys.hpp"
 #include "material/RockJointMat.hpp"
 #include "shape/ShapeOfBody.hpp"
@@ -75,12 +76,9 @@ namespace {
 				cell[k] = int(math::floor(place[k]));
 			return cell;
 		};
-		const auto shiftBy = [&](const Vector3i& cells) {
-			return scene.isPeriodic ? scene.cell->intrShiftPos(cells) : Vector3r(Vector3r::Zero());
-		};
 		std::vector<polytope::BoxGrid::Box> boxes;
 		for (std::size_t k = 0; k < all.size(); ++k)
-			boxes.push_back(boxOf(all[k], all[k].body->state->pos - shiftBy(cellOf(all[k])), gap, k));
+			boxes.push_back(boxOf(all[k], placeByCells(scene, -cellOf(all[k]), all[k].body->state->pos), gap, k));
 		polytope::BoxGrid grid;
 		grid.reset(boxes);
 		const int around = scene.isPeriodic ? 1 : 0;
@@ -91,13 +89,14 @@ namespace {
 			for (by[0] = -around; by[0] <= around; ++by[0])
 				for (by[1] = -around; by[1] <= around; ++by[1])
 					for (by[2] = -around; by[2] <= around; ++by[2]) {
-						const Vector3r moved = b.body->state->pos + shiftBy(back + by);
+						const Vector3r moved = placeByCells(scene, back + by, b.body->state->pos);
 						grid.forOverlaps(boxOf(b, moved, gap, k), [&](const polytope::BoxGrid::Box& other) {
 							if (std::size_t(other.id) >= k) return;
 							const Bondable& a     = all[std::size_t(other.id)];
 							const Vector3i  cells = back + by + cellOf(a);
 							const Real      reach = a.radius + b.radius + gap;
-							const Vector3r  way   = b.body->state->pos + shiftBy(cells) - a.body->state->pos;
+							const Vector3r  way
+							        = placeByCells(scene, cells, b.body->state->pos) - a.body->state->pos;
 							if (way.squaredNorm() <= reach * reach) visit(a, b, cells);
 						});
 					}
@@ -197,7 +196,7 @@ std::vector<shared_ptr<PolytopeBond>> PolytopeBonds::found(
 		const bool      ordered = a.body->id < b.body->id;
 		const Bondable &one = ordered ? a : b, &two = ordered ? b : a;
 		const Vector3i  by     = ordered ? cells : Vector3i(-cells);
-		const Vector3r  shift  = where.isPeriodic ? where.cell->intrShiftPos(by) : Vector3r(Vector3r::Zero());
+		const Vector3r  shift  = placeByCells(where, by);
 		const Real      within = gap >= 0 ? gap : Real(polytope::tolerance::touchingFaces) * math::min(one.radius, two.radius);
 		for (const polytope::CommonFace& face : polytope::commonFaces(
 		             placed(*one.shape, *one.body->state), placed(*two.shape, *two.body->state, shift), within, angle)) {

@@ -7,6 +7,7 @@
 #include "bond/BondOfParts.hpp"
 #include "contact/PolytopeGeom.hpp"
 #include "host/HalfStepWork.hpp"
+#include "host/PeriodOfPair.hpp"
 #include "joint/RockJointPhys.hpp"
 
 namespace yade {
@@ -24,12 +25,6 @@ namespace {
 	int rankOf(const Scene&) { return 0; }
 #endif
 
-	/// Shift of the second body into the period of the first.
-	Vector3r shiftOf(const PolytopeBond& bond, const Scene& scene)
-	{
-		return scene.isPeriodic ? scene.cell->intrShiftPos(bond.cellDist) : Vector3r(Vector3r::Zero());
-	}
-
 	/// Whether the joint of two bodies has just taken over from their bond, with its force and energy (Ip2_RockJointMat_RockJointMat_RockJointPhys.cpp).
 	bool jointHasTakenOver(const PolytopeBond& bond, const Scene& scene)
 	{
@@ -42,9 +37,8 @@ namespace {
 	/// Work in a bond's last step: at its end there is no force any more.
 	Real workOfLastHalf(const PolytopeBond& bond, const Vector3r& force, const Scene& scene)
 	{
-		const State &state1 = *(*scene.bodies)[bond.id1]->state, &state2 = *(*scene.bodies)[bond.id2]->state;
-		Vector3r     velocity = state2.vel - state1.vel;
-		if (scene.isPeriodic) velocity += scene.cell->intrShiftVel(bond.cellDist);
+		const State &  state1 = *(*scene.bodies)[bond.id1]->state, &state2 = *(*scene.bodies)[bond.id2]->state;
+		const Vector3r velocity = velocityByCells(scene, bond.cellDist, state2.vel - state1.vel);
 		return halfStepWork({ force, bond.moment, bond.arm1, bond.arm2 }, velocity, state1, state2, scene.dt);
 	}
 
@@ -95,7 +89,7 @@ void PolytopeBonds::act(PolytopeBond& bond) const
 		}
 		bond.adoptBodies(*scene->bodies);
 	}
-	bond.follow(*(*scene->bodies)[bond.id1]->state, *(*scene->bodies)[bond.id2]->state, shiftOf(bond, *scene));
+	bond.follow(*(*scene->bodies)[bond.id1]->state, *(*scene->bodies)[bond.id2]->state, placeByCells(*scene, bond.cellDist));
 	if (!bond.isFinite()) { // as contacts: left out of this step
 		bond.force = bond.moment = Vector3r::Zero();
 		bond.energy              = 0;
@@ -286,7 +280,7 @@ bool PolytopeBonds::left(Body::id_t id1, Body::id_t id2, BondRemains& remains) c
 	if (!remains.inLastStep) return true;
 	const bool same = bond.id1 == id1;
 	remains.force   = same ? bond.force : Vector3r(-bond.force);
-	remains.point   = same ? bond.point : Vector3r(bond.point - shiftOf(bond, *scene));
+	remains.point   = same ? bond.point : Vector3r(bond.point - placeByCells(*scene, bond.cellDist));
 	remains.energy  = bond.energy;
 	return true;
 }

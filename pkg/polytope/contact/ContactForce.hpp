@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "host/PeriodOfPair.hpp"
 #include "shape/ShapeFamily.hpp"
 
 #include <core/Scene.hpp>
@@ -24,7 +25,7 @@ inline void followShear(ScGeom& geom, FrictPhys& phys)
 inline void addContactForce(const ScGeom& geom, const NormShearPhys& phys, const Interaction& contact, Scene& scene)
 {
 	const Vector3r force = phys.normalForce + phys.shearForce;
-	const Vector3r shift = scene.isPeriodic ? scene.cell->intrShiftPos(contact.cellDist) : Vector3r(Vector3r::Zero());
+	const Vector3r shift = placeByCells(scene, contact.cellDist);
 	const Body &   body1 = *(*scene.bodies)[contact.getId1()], &body2 = *(*scene.bodies)[contact.getId2()];
 	familyOf(*body1.shape).addForce(body1, geom.contactPoint, -force, scene.forces);
 	familyOf(*body2.shape).addForce(body2, geom.contactPoint - shift, force, scene.forces);

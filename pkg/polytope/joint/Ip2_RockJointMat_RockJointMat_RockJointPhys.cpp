@@ -5,6 +5,7 @@
 #include <lib/high-precision/Constants.hpp>
 
 #include "contact/PolytopeGeom.hpp"
+#include "host/PeriodOfPair.hpp"
 #include "shape/Polytope.hpp"
 
 #include <src/bond/BondTolerances.hpp>
@@ -115,9 +116,8 @@ namespace {
 		if (!scene.trackEnergy) return;
 		LastStepOfJoint& last = phys.lastStep.make();
 		last.arm1             = bond.point - (*scene.bodies)[contact.getId1()]->state->pos;
-		last.arm2             = bond.point - (*scene.bodies)[contact.getId2()]->state->pos;
-		if (scene.isPeriodic) last.arm2 -= scene.cell->intrShiftPos(contact.cellDist);
-		last.stored = bond.energy;
+		last.arm2             = bond.point - placeByCells(scene, contact.cellDist, (*scene.bodies)[contact.getId2()]->state->pos);
+		last.stored           = bond.energy;
 	}
 
 } // namespace

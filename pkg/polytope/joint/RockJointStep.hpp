@@ -4,6 +4,7 @@
 #include <core/Scene.hpp>
 
 #include "contact/PolytopeGeom.hpp"
+#include "host/PeriodOfPair.hpp"
 #include "joint/RockJointLaw.hpp"
 #include "joint/RockJointPhys.hpp"
 #include "joint/StiffnessSums.hpp"
@@ -47,19 +48,14 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 
 	Pair(const Interaction& contact_, const PolytopeGeom& geom_, Scene* scene_)
 	        : contact(contact_), geom(geom_), scene(scene_), body1(Body::byId(contact.getId1(), scene).get()),
-	          body2(Body::byId(contact.getId2(), scene).get()), state1(*body1->state), state2(*body2->state), centre2(state2.pos)
+	          body2(Body::byId(contact.getId2(), scene).get()), state1(*body1->state), state2(*body2->state),
+	          centre2(placeByCells(*scene, contact.cellDist, state2.pos))
 	{
-		if (scene->isPeriodic) centre2 += scene->cell->intrShiftPos(contact.cellDist);
 		arm1 = geom.contactPoint - state1.pos;
 		arm2 = geom.contactPoint - centre2;
 	}
 	/// Velocity of body 2's centre relative to body 1's.
-	Vector3r centreVelocity() const
-	{
-		Vector3r velocity = state2.vel - state1.vel;
-		if (scene->isPeriodic) velocity += scene->cell->intrShiftVel(contact.cellDist);
-		return velocity;
-	}
+	Vector3r centreVelocity() const { return velocityByCells(*scene, contact.cellDist, state2.vel - state1.vel); }
 	/// Velocity of body 2 against body 1 at the contact point.
 	Vector3r velocity() const { return centreVelocity() + state2.angVel.cross(arm2) - state1.angVel.cross(arm1); }
 	Vector3r spin() const { return state2.angVel - state1.angVel; }

@@ -9,6 +9,7 @@
 
 #include "contact/PolytopeGeom.hpp"
 #include "host/InteractionLoops.hpp"
+#include "host/PeriodOfPair.hpp"
 #include "host/SpringsOfScene.hpp"
 #include "joint/RockJointDampers.hpp"
 #include "joint/RockJointLaw.hpp"
@@ -176,12 +177,8 @@ namespace {
 				const auto* geom = dynamic_cast<const GenericSpheresContact*>(contact.geom.get());
 				const auto* phys = dynamic_cast<const NormShearPhys*>(contact.phys.get());
 				if (!geom || !phys) continue;
-				PairInScene pair { scene, *(*scene.bodies)[contact.getId1()], *(*scene.bodies)[contact.getId2()], *geom,
-					*phys, Vector3r::Zero(), Vector3r::Zero() };
-				if (scene.isPeriodic) {
-					pair.shift2        = scene.cell->intrShiftPos(contact.cellDist);
-					pair.shiftVelocity = scene.cell->intrShiftVel(contact.cellDist);
-				}
+				const PairInScene pair { scene, *(*scene.bodies)[contact.getId1()], *(*scene.bodies)[contact.getId2()],
+					*geom, *phys, placeByCells(scene, contact.cellDist), velocityByCells(scene, contact.cellDist) };
 				polytope::ContactSprings springs;
 				springs.normal          = geom->normal;
 				springs.normalStiffness = phys->kn;
