@@ -108,11 +108,8 @@ namespace {
 		phys.fail();
 		phys.restOverlap = bond.overlap;
 		if (!bond.inLastStep) return;
-		const Vector3r normal = static_cast<const PolytopeGeom&>(*contact.geom).normal;
-		phys.normalForce      = normal.dot(bond.force) * normal;
-		phys.shearForce       = bond.force - phys.normalForce;
-		phys.shearPoint       = bond.point;
-		phys.followsBond      = true;
+		phys.takeForce(bond.force, bond.point, static_cast<const PolytopeGeom&>(*contact.geom).normal);
+		phys.followsBond = true;
 		if (!scene.trackEnergy) return;
 		LastStepOfJoint& last = phys.lastStep.make();
 		last.arm1             = bond.point - (*scene.bodies)[contact.getId1()]->state->pos;

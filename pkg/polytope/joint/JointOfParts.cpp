@@ -80,9 +80,7 @@ namespace {
 		phys.setStiffnesses(1);
 		geom.normal       = bond->follow(*part1.state, *part2.state, Vector3r::Zero()).mean * Vector3r::UnitX();
 		geom.contactPoint = bond->point;
-		phys.normalForce  = geom.normal.dot(bond->force) * geom.normal;
-		phys.shearForce   = bond->force - phys.normalForce;
-		phys.shearAt(bond->point);
+		phys.takeForce(bond->force, bond->point, geom.normal);
 	}
 
 	/// What energies are counted from in the next step.
@@ -91,9 +89,8 @@ namespace {
 		LastStepOfJoint& last = phys.lastStep.make();
 		last.arm1             = geom.contactPoint - part1.state->pos;
 		last.arm2             = geom.contactPoint - part2.state->pos;
-		last.moment           = phys.momentAbout(geom.contactPoint, geom.normal)
-		        + (phys.bond ? Vector3r(Vector3r::Zero()) : phys.normalMoment(geom.turningArm));
-		last.stored = phys.presentNormalEnergy(geom) + phys.shearEnergy();
+		last.moment           = phys.undampedMoment(geom);
+		last.stored           = phys.presentNormalEnergy(geom) + phys.shearEnergy();
 	}
 
 	/// Puts a contact in the place of the pair that the collider has made, whose bodies may be in the other order. False if that pair is a real contact.

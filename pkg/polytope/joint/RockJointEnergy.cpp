@@ -24,7 +24,7 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	if (!energiesNamed_) nameEnergies();
 	const LastStepOfJoint before = phys.lastStep.get() ? *phys.lastStep.get() : LastStepOfJoint();
 	const Vector3r        force  = phys.normalForce + phys.shearForce;
-	const Vector3r        moment = pair.momentOf(phys);
+	const Vector3r        moment = phys.undampedMoment(pair.geom);
 	const auto            half
 	        = [&](const ForceOfPair& of) { return halfStepWork(of, pair.centreVelocity(), pair.state1, pair.state2, scene->dt); };
 	const Real given = half({ last.force, before.moment, before.arm1, before.arm2 }) + half({ force, moment, pair.arm1, pair.arm2 });

@@ -108,7 +108,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys
 /// Applies forces and moments to the bodies; false if they are not finite: then the contact is left out of this step.
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJointPhys& phys)
 {
-	const Vector3r force = phys.normalForce + phys.shearForce, moment = phys.rockingMoment + pair.momentOf(phys);
+	const Vector3r force = phys.normalForce + phys.shearForce, moment = phys.rockingMoment + phys.undampedMoment(pair.geom);
 	if (!math::isfinite(force.squaredNorm() + moment.squaredNorm())) {
 		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = phys.slip
 		        = Vector3r::Zero();

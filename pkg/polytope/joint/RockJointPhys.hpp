@@ -104,12 +104,25 @@ public:
 	}
 	/// Moment on body 2 of a normal force that turns about its own line (PolytopeGeom::turningArm) [N m].
 	Vector3r normalMoment(Real turningArm) const { return turningArm * (normalForce - normalViscous); }
+	/// Moment on body 2 about the contact point, without the rocking damper's [N m].
+	Vector3r undampedMoment(const PolytopeGeom& geom) const
+	{
+		const Vector3r ofShear = momentAbout(geom.contactPoint, geom.normal);
+		return bond ? ofShear : Vector3r(ofShear + normalMoment(geom.turningArm));
+	}
 	/// Shear acts at this point, without a moment.
 	void shearAt(const Vector3r& point)
 	{
 		shearPoint     = point;
 		twistingMoment = twistingViscous = twistingStiffness = 0;
 		shearLayers.clear();
+	}
+	/// Normal and shear force are those of a bond of the two bodies, which acts at this point.
+	void takeForce(const Vector3r& ofBond, const Vector3r& point, const Vector3r& normal)
+	{
+		normalForce = normal.dot(ofBond) * normal;
+		shearForce  = ofBond - normalForce;
+		shearAt(point);
 	}
 	/// Whether the joint can carry a tensile force [N].
 	bool bearsTension(Real force) const;

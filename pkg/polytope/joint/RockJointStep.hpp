@@ -59,12 +59,6 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	/// Velocity of body 2 against body 1 at the contact point.
 	Vector3r velocity() const { return centreVelocity() + state2.angVel.cross(arm2) - state1.angVel.cross(arm1); }
 	Vector3r spin() const { return state2.angVel - state1.angVel; }
-	/// Moment on body 2 about the contact point, without the rocking damper's.
-	Vector3r momentOf(const RockJointPhys& phys) const
-	{
-		const Vector3r ofShear = phys.momentAbout(geom.contactPoint, geom.normal);
-		return phys.bond ? ofShear : Vector3r(ofShear + phys.normalMoment(geom.turningArm));
-	}
 	/// Shift from where body 2 is to where it is in the period of body 1.
 	Vector3r shift2() const { return centre2 - state2.pos; }
 };
