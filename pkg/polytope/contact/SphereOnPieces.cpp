@@ -4,14 +4,13 @@
 #include "contact/PieceTolerances.hpp"
 #include "host/Partners.hpp"
 #include "host/PartsOfBodies.hpp"
-#include "shape/Polytope.hpp"
+#include "shape/ShapeOfBody.hpp"
 
 #include <lib/high-precision/Constants.hpp>
 
 #include <src/contact/SectionArea.hpp>
 #include <src/numbers/Tolerances.hpp>
 #include <src/shape/ClosestPoint.hpp>
-#include <src/shape/PlacedShape.hpp>
 
 namespace yade {
 
@@ -34,13 +33,11 @@ namespace {
 	        const Visit& visit)
 	{
 		forPartners(sphere, piece.id, scene, [&](const Body& other, const Vector3r& shift) {
-			const auto* polytope = dynamic_cast<const Polytope*>(other.shape.get());
-			if (!polytope || !polytope->convex()) return;
-			if (inOneClump(other, sphere)) return; // they never touch
-			const polytope::ConvexShape& solid  = *polytope->convex();
-			const Vector3r               centre = other.state->pos + shift - sphere.state->pos;
-			if (centre.norm() > radius + solid.boundingRadius()) return;
-			if (reaches(solid, centre, other.state->ori, point, reach)) visit(solid, centre, other.state->ori);
+			const polytope::ConvexShape* const solid = convexShapeOf(other);
+			if (!solid || inOneClump(other, sphere)) return; // which never touch
+			const Vector3r centre = other.state->pos + shift - sphere.state->pos;
+			if (centre.norm() > radius + solid->boundingRadius()) return;
+			if (reaches(*solid, centre, other.state->ori, point, reach)) visit(*solid, centre, other.state->ori);
 		});
 	}
 

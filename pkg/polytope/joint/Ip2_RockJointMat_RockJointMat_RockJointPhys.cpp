@@ -6,7 +6,7 @@
 
 #include "contact/PolytopeGeom.hpp"
 #include "host/PeriodOfPair.hpp"
-#include "shape/Polytope.hpp"
+#include "shape/ShapeOfBody.hpp"
 
 #include <src/bond/BondTolerances.hpp>
 
@@ -30,9 +30,9 @@ namespace {
 	/// \param normal of the contact, out of the body
 	FaceOfContact faceOf(const Body& body, const Vector3r& normal, const Scene& scene)
 	{
-		const auto*   shape = dynamic_cast<const Polytope*>(body.shape.get());
-		FaceOfContact found;
-		if (!shape || !shape->convex()) return found;
+		const Polytope* const shape = polytopeOf(body);
+		FaceOfContact         found;
+		if (!shape) return found;
 		const auto&    normals = shape->convex()->planes().normals;
 		const Vector3r turned  = body.state->ori.conjugate() * normal;
 		std::size_t    best    = 0;
