@@ -129,7 +129,7 @@ namespace {
 			return all;
 		}
 
-		/// Of the nearest point of the line, plane or space through all of them.
+		/// Weights of the vertices in the nearest point of the line, plane or space through all of them.
 		void ofPlane(Real* weight) const
 		{
 			using Edges = Eigen::Matrix<Real, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
@@ -165,7 +165,7 @@ namespace {
 		return result;
 	}
 
-	/// Of a half-space and a body; `sign`: 1 where the half-space is body 1.
+	/// Distance of a half-space and a body; `sign`: 1 where the half-space is body 1.
 	PairDistance fromWall(const ConvexShape& wall, const Placed& place, const Placed& body, int sign)
 	{
 		const Vector3 normal   = place.rotation() * wall.planes().normals.front();

@@ -5,7 +5,7 @@
 
 namespace polytope {
 
-/// Of two bodies that are apart; where they touch or overlap it is zero, without normal and points (contactQuery() has those).
+/// The distance of two bodies that are apart; where they touch or overlap it is zero, without normal and points (contactQuery() has those).
 struct PairDistance {
 	Real    distance = 0;                                    ///< [m]
 	Vector3 normal   = Vector3::Zero();                      ///< unit, world axes, from body 1 to body 2

@@ -16,7 +16,7 @@ namespace {
 		return dimension == 3 || abs(matrix(2, 2) - 1) <= Real(tolerance::orthogonal);
 	}
 
-	/// Of a half-space, which takes its normal as it is.
+	/// Whether the normal of a half-space, which takes it as it is given, has the length 1; other shapes always pass.
 	bool hasUnitNormal(const ConvexShape& shape)
 	{
 		if (isfinite(shape.boundingRadius())) return true;

@@ -18,7 +18,7 @@ struct SolidMoments {
 		second += tensor;
 	}
 
-	/// Of the tetrahedron that the origin spans with a triangle, positive where it is counter-clockwise seen from outside.
+	/// Adds the moments of the tetrahedron that the origin spans with a triangle: positive where the triangle is counter-clockwise seen from outside.
 	void addTetrahedron(const Vector3& a, const Vector3& b, const Vector3& c)
 	{
 		const Real    volume = a.dot(b.cross(c)) / 6;
@@ -27,7 +27,7 @@ struct SolidMoments {
 		        volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose()));
 	}
 
-	/// Of a triangle, positive where it is counter-clockwise about the normal.
+	/// Adds the moments of a triangle: positive where it is counter-clockwise about the normal.
 	void addTriangle(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& normal)
 	{
 		const Real    area = (b - a).cross(c - a).dot(normal) / 2;

@@ -18,7 +18,7 @@ namespace yade {
 /// their own: they may separate, and their joints carry the contact forces.
 bool mayHaveInternalFaces(const Body& body1, const Body& body2);
 
-/// Of the planes near the overlap those that are internal faces.
+/// The planes near the overlap that are internal faces.
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding);
 
 } // namespace yade

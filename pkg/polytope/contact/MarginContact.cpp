@@ -33,7 +33,7 @@ namespace {
 		Real     deepest; ///< overlap of the bodies there; below 0: apart by as much [m]
 	};
 
-	/// Of a segment or point with half-spaces. \param sign +1: the segment is body 1
+	/// The way between a segment or point and half-spaces. \param sign +1: the segment is body 1
 	Way fromSegment(const CoreOfBody& segment, const CoreOfBody& other, int sign)
 	{
 		const Matrix3r turn  = other.rotation.transpose();
@@ -45,7 +45,7 @@ namespace {
 		return { outward, foot, depth };
 	}
 
-	/// Of two segments or points; none where they cross.
+	/// The way between two segments or points; none where they cross.
 	std::optional<Way> betweenSegments(const CoreOfBody& one, const CoreOfBody& other)
 	{
 		const auto     along = polytope::closestOnSegments(one.origin, one.way, other.origin, other.way);
@@ -55,7 +55,7 @@ namespace {
 		return Way { way / gap, along[0] * one.way, one.margin + other.margin - gap };
 	}
 
-	/// Of half-spaces with half-spaces that are apart.
+	/// The way between two bodies of half-spaces that are apart; none where they are not.
 	std::optional<Way> betweenHalfSpaces(const CoreOfBody& one, const CoreOfBody& other, const Vector3r& moved)
 	{
 		const auto gap = polytope::pairDistance(
@@ -97,8 +97,8 @@ namespace {
 		result.energy        = result.inContact ? energy : Real(0);
 	}
 
-	/// Of half-spaces that overlap. Without margins their contact is the answer, `result`; with margins it is the way from where body 2 is moved out of body 1 along the normal of
-	/// that contact, or, where that does not lead out of it, along the normal itself.
+	/// The way between two bodies of half-spaces that overlap. Without margins their contact is the answer, `result`; with margins it is the way from
+	/// where body 2 is moved out of body 1 along the normal of that contact, or, where that does not lead out of it, along the normal itself.
 	std::optional<Way> outOfOverlap(
 	        const CoreOfBody& one, const CoreOfBody& other, polytope::ContactSettings settings, polytope::ContactResult& result)
 	{
@@ -156,7 +156,7 @@ namespace {
 		MarginOnPieces::Share              share { 1, Vector3r::Zero() };
 		std::vector<polytope::FaceCorners> faces;
 
-		/// Those of the body with this number, if it is the support.
+		/// The faces of the body with this number, if it is the support; else null.
 		const std::vector<polytope::FaceCorners>* facesOf(int body) const
 		{
 			return body == 1 - mover_ && !faces.empty() ? &faces : nullptr;

@@ -19,7 +19,7 @@ struct Extension {
 	std::vector<std::string> classes;
 };
 
-/// Those that are loaded.
+/// The extensions that are loaded.
 const std::deque<Extension>& extensions();
 
 /// Loads one and makes its classes known to YADE and Python; nothing where it is loaded already. Throws std::runtime_error with the reason where it does not fit:

@@ -18,7 +18,7 @@ template <class Find> auto findInLoops(const Scene& scene, const Find& find) -> 
 	return {};
 }
 
-/// The same of find(functor), for the functors of a kind among those of a dispatcher, as &InteractionLoop::physDispatcher.
+/// The first thing that find(functor) returns for the functors of a kind in one of the loops' dispatchers, as &InteractionLoop::physDispatcher.
 template <class Kind, class Dispatcher, class Find>
 auto findInFunctors(const Scene& scene, shared_ptr<Dispatcher> InteractionLoop::* dispatcher, const Find& find)
         -> decltype(find(std::declval<Kind&>()))

@@ -77,7 +77,7 @@ public:
 	Real energyPerStiffness(Real overlap) const;
 	/// Energy of the normal spring with this force [J]; a contact surface has the energy whose gradient its force is.
 	Real normalEnergy(const PolytopeGeom& geom, Real force) const;
-	/// The same with the present force; of a joint that acts as a bond, the energy of the bond without that of shear.
+	/// Energy of the normal spring with its present force [J]; of a joint that acts as a bond, the energy of the bond without that of shear.
 	Real presentNormalEnergy(const PolytopeGeom& geom) const;
 	/// Gives kn, while it is that of the linear spring, the slope of the joint's own closure law at this overlap; returns that slope over the initial stiffness.
 	Real stiffen(Real overlap);

@@ -26,9 +26,9 @@ public:
 		Real              sweep       = 0; ///< along each axis
 		Real              radius      = 0; ///< of the ball about the centre in which it turns; zero: a turn needs no room
 		Real              margin      = 0; ///< Polytope::margin()
-		/// Its own: the body's shape may be exchanged. None where its planes do not say where the surface is.
+		/// The shape that the body had then: it may be exchanged. None where the shape's planes do not say where the surface is.
 		std::shared_ptr<const polytope::ConvexShape> convex;
-		/// Its own degrees of freedom that were blocked: where others are now, it may touch what it did not (outside()).
+		/// Degrees of freedom of the body that were blocked then: where others are now, it may touch what it did not (outside()).
 		unsigned blockedDOFs = 0;
 		/// Whether it was fixed, and whether it was so without velocity: pairs of such bodies are left out until one of them is freed, gets a velocity or is put
 		/// elsewhere.

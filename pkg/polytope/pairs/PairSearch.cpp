@@ -55,7 +55,7 @@ namespace {
 #endif
 	}
 
-	/// Of the classes of which YADE has no contact among themselves.
+	/// Whether it is of the classes that have no contact with each other in YADE.
 	bool isBoundary(const Shape* shape) { return exactly<Facet>(shape) || exactly<Box>(shape) || exactly<Wall>(shape); }
 
 	/// What rounding may leave of the overlap of two bodies that lie flush, of their places, too.

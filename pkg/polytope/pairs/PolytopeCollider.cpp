@@ -47,7 +47,7 @@ template <class Make> void PolytopeCollider::withRooms(const Make& make)
 	give(nullptr);
 }
 
-/// As InsertionSortCollider: where it is negative, that part of the smallest sphere's radius; none without spheres.
+/// A negative verletDist means, as in InsertionSortCollider, that part of the smallest sphere's radius; without spheres it becomes 0.
 void PolytopeCollider::findVerletDist()
 {
 	if (!(verletDist < 0)) return;
@@ -58,7 +58,7 @@ void PolytopeCollider::findVerletDist()
 	verletDist = math::isinf(smallest) ? Real(0) : math::abs(verletDist) * smallest;
 }
 
-/// As InsertionSortCollider, for which the integrator measures displacements.
+/// Has the integrator measure displacements, as InsertionSortCollider does.
 void PolytopeCollider::findNewton()
 {
 	if (!(verletDist > 0)) return;

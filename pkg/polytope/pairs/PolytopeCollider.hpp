@@ -13,7 +13,7 @@ public:
 	bool isActivated() override;
 	void action() override;
 
-	/// As InsertionSortCollider's.
+	/// Ids of the bodies whose boxes meet this one, as InsertionSortCollider's function of this name returns them.
 	vector<Body::id_t> probeBoundingVolume(const Bound& bound) override;
 
 	// clang-format off

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What bodies.py and clumps.py of py/polytope call: a shape made by ShapeFactory, a body made of it, what parts of a clump fill together.
+// What polytopes.py and clumps.py of py/polytope/bodies call: a shape made by ShapeFactory, a body made of it, what parts of a clump fill together.
 #include "shape/Construction.hpp"
 
 #include "host/Vectors.hpp"

@@ -74,7 +74,7 @@ namespace {
 		return math::exp(step * math::ceil(math::log(size) / step));
 	}
 
-	/// Of a joint's own normal law, where it begins stiffer than the material's normalStiffness.
+	/// Initial stiffness of a joint's own normal law over the material's normalStiffness, where it is above 1; else 1.
 	Real initialTangent(const NormShearPhys& phys)
 	{
 		const auto* const joint = dynamic_cast<const RockJointPhys*>(&phys);
