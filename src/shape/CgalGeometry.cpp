@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/CgalGeometry.hpp"
 
-#include "shape/Numbers.hpp"
+#include "shape/CheckedNumbers.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>

@@ -3,8 +3,8 @@
 
 #include "shape/Rings.hpp"
 
+#include "shape/CheckedNumbers.hpp"
 #include "shape/ConstructionTolerances.hpp"
-#include "shape/Numbers.hpp"
 
 #include <algorithm>
 

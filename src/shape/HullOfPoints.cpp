@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "numbers/NumberText.hpp"
+#include "shape/CheckedNumbers.hpp"
 #include "shape/ConstructionTolerances.hpp"
-#include "shape/Numbers.hpp"
 #include "shape/PlaneMeeting.hpp"
 #include "shape/ShapeConstruction.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/JointedBlocks.hpp"
 
+#include "shape/CheckedNumbers.hpp"
 #include "shape/ConstructionTolerances.hpp"
-#include "shape/Numbers.hpp"
 #include "shape/RockBridges.hpp"
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 
 #include "numbers/NumberText.hpp"
 #include "shape/CgalGeometry.hpp"
+#include "shape/CheckedNumbers.hpp"
 #include "shape/ConstructionTolerances.hpp"
 #include "shape/InscribedBall.hpp"
-#include "shape/Numbers.hpp"
 
 #include <cmath>
 #include <sstream>

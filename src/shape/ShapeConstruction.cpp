@@ -2,8 +2,8 @@
 #include "shape/ShapeConstruction.hpp"
 
 #include "numbers/NumberText.hpp"
+#include "shape/CheckedNumbers.hpp"
 #include "shape/ConstructionTolerances.hpp"
-#include "shape/Numbers.hpp"
 #include "shape/PlaneMeeting.hpp"
 
 #include <stdexcept>

@@ -2,8 +2,8 @@
 #include "shape/UnionOfParts.hpp"
 
 #include "shape/Block.hpp"
+#include "shape/CheckedNumbers.hpp"
 #include "shape/ConstructionTolerances.hpp"
-#include "shape/Numbers.hpp"
 #include "shape/SolidMoments.hpp"
 
 #include <algorithm>

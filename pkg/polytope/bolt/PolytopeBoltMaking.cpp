@@ -5,7 +5,7 @@
 
 #include <src/bolt/BoltLayout.hpp>
 #include <src/bolt/BoltTolerances.hpp>
-#include <src/shape/Numbers.hpp>
+#include <src/shape/CheckedNumbers.hpp>
 
 #include "bolt/PolytopeBolts.hpp"
 #include "host/CheckedAttributes.hpp"

@@ -7,7 +7,7 @@
 #include <src/bond/BondTolerances.hpp>
 #include <src/bond/CommonFace.hpp>
 #include <src/neighbours/BoxGrid.hpp>
-#include <src/shape/Numbers.hpp>
+#include <src/shape/CheckedNumbers.hpp>
 
 #include "bonding/PolytopeBonds.hpp"
 #include "host/CheckedAttributes.hpp"

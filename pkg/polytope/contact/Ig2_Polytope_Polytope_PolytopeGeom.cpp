@@ -4,7 +4,7 @@
 #include <core/Scene.hpp>
 
 #include <src/contact/Preconditions.hpp>
-#include <src/shape/Numbers.hpp>
+#include <src/shape/CheckedNumbers.hpp>
 
 namespace yade {
 

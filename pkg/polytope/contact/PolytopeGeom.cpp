@@ -3,7 +3,7 @@
 
 #include <src/numbers/PlaneAxes.hpp>
 #include <src/program/PlaneCode.hpp>
-#include <src/shape/Numbers.hpp>
+#include <src/shape/CheckedNumbers.hpp>
 
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>

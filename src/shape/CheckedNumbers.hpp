@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-/// What all files of shape construction ask of numbers, and how they refuse a script's.
+/// What all files of shape construction ask of the numbers that a script gives, and how they refuse them.
 namespace polytope {
 
 /// \param message begins with the argument's name, ends with the remedy
