@@ -7,7 +7,7 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import Body, Polytope, Quaternion
 
-from ..pictures.faces import localVertices
+from ..scene.vertices import localVertices
 from .clumps import union
 from .polytopes import fromVertices, ofOneColour
 

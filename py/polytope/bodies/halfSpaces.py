@@ -5,7 +5,7 @@ import numpy as np
 from yade import Vector3, _polytope
 
 from ..arguments import numbersOf, vectors
-from ..pictures.faces import rows
+from ..scene.vertices import rows
 
 __all__ = ['boxPlanes', 'convexRegion', 'halfSpacesOf', 'worldPlanes']
 

@@ -5,7 +5,7 @@ import numpy as np
 from yade import Quaternion, Vector3, _polytope
 
 from ..arguments import vectors
-from ..pictures.faces import rows
+from ..scene.vertices import rows
 from .polytopes import defaultCornerFraction, isotropyTolerance
 
 __all__ = ['pieceOf']

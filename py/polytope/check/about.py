@@ -4,9 +4,9 @@
 import numpy as np
 from yade import Box, Facet, Polytope, Sphere
 
-from ..pictures.faces import worldVertices
 from ..scene.movers import movers
 from ..scene.radii import marginOf, outerRadius
+from ..scene.vertices import worldVertices
 
 __all__ = ['aboutScene', 'extentOf', 'extentOfSupports']
 

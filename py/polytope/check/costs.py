@@ -14,11 +14,11 @@ import numpy as np
 from yade import Polytope, PolytopeCollider, PolytopeGeom
 
 from .. import _builds
-from ..pictures.faces import worldVertices
 from ..scene.permanentLoads import permanentLoads
 from ..scene.present import contactSettings, geometryFunctors
 from ..scene.radii import inscribedRadius
 from ..scene.timeStep import safeTimeStep
+from ..scene.vertices import worldVertices
 from .plane import dimension
 from .steps import usual, yadesDt
 

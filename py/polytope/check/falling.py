@@ -5,8 +5,8 @@ import numpy as np
 from yade import Box, Facet, Polytope, Sphere, Wall
 
 from ..bonding.bolting import madeBolts
-from ..pictures.faces import worldVertices
 from ..scene.movers import isMover, moverOf, partsOf
+from ..scene.vertices import worldVertices
 
 __all__ = ['belowAll', 'falling']
 

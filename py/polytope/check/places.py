@@ -10,11 +10,11 @@ from yade import Box, Facet, Polytope, RockJointMat, Wall
 from ..bodies.halfSpaces import halfSpacesOf
 from ..bonding.bonds import intactBonds
 from ..measures.arrays import arrays
-from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
 from ..scene.radii import inscribedRadius
+from ..scene.vertices import worldVertices
 from .neighbours import looks, touching, touchingPairs
 from .overlaps import coincidence, overlaps
 

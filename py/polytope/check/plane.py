@@ -5,7 +5,7 @@ import numpy as np
 from yade import NewtonIntegrator, O, Polytope, Vector3
 
 from ..bodies.polytopes import polygon
-from ..pictures.faces import worldVertices
+from ..scene.vertices import worldVertices
 
 __all__ = ['dimension', 'makePolygons']
 

@@ -18,10 +18,10 @@ import scipy  # loads its packages at their first use: half a second
 from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 
 from ..bodies.halfSpaces import worldPlanes
-from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialOfPlane, materialsOf
 from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
+from ..scene.vertices import worldVertices
 
 __all__ = ['softJoints', 'stableTilt']
 

@@ -5,7 +5,7 @@ import numpy as np
 
 from ..bodies.halfSpaces import halfSpacesOf
 from ..bodies.polytopes import fromHalfSpaces
-from ..pictures.faces import worldVertices
+from ..scene.vertices import worldVertices
 
 __all__ = ['standIn']
 

@@ -6,11 +6,11 @@ from yade import BaseMotion, O, Polytope, QuietBoundary, Vector3
 
 from ..arguments import namedArguments, number, vector
 from ..bonding.bonds import madeBonds
-from ..pictures.faces import localVertices
 from ..precision import real
 from ..rock.faces import areaVector, centroidOf
 from ..scene.permanentLoads import permanentLoads
 from ..scene.present import insertEngine, placeOfForces
+from ..scene.vertices import localVertices
 from ._bodies import bodiesOf, historyOf, integrator
 
 __all__ = ['quietBoundary']

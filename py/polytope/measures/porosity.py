@@ -10,9 +10,9 @@ from yade import O, Polytope, Sphere, Vector3, _polytope
 from ..arguments import warn
 from ..bodies.halfSpaces import boxPlanes, convexRegion
 from ..bodies.polytopes import fromHalfSpaces
-from ..pictures.faces import localVertices
 from ..scene.movers import moverOf, partsOf
 from ..scene.namedBodies import namedBodies
+from ..scene.vertices import localVertices
 
 __all__ = ['porosity', 'solidVolume', 'volumeInside']
 

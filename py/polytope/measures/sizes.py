@@ -4,8 +4,8 @@
 import numpy as np
 from yade import O, Sphere
 
-from ..pictures.faces import localVertices, worldVertices
 from ..scene.namedBodies import namedBodies
+from ..scene.vertices import localVertices, worldVertices
 from .counted import freePolytopes, massive
 
 __all__ = ['aabbExtrema', 'sizeDistribution']

@@ -7,8 +7,8 @@ import math
 import numpy as np
 from yade import Polytope
 
+from ..scene.vertices import localVertices, reachOfWalls, rows, worldVertices
 from .camera import unit
-from .faces import localVertices, reachOfWalls, rows, worldVertices
 
 __all__ = [
 	'colorMap',

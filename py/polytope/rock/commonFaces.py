@@ -8,7 +8,7 @@ from yade import O, RockJointPhys
 
 from ..bodies.halfSpaces import worldPlanes
 from ..bonding.bonds import facingFaces, presentBonds
-from ..pictures.faces import rows
+from ..scene.vertices import rows
 from .faceMaterials import materialOfPlane
 
 __all__ = ['CommonFace', 'boundFaces', 'commonFaces', 'contactOf', 'lesser', 'materialOf', 'materialsOfSides', 'planeOf']

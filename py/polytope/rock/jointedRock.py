@@ -17,8 +17,8 @@ from yade import O, _polytope
 from ..arguments import namedArguments, warn
 from ..bodies.clumps import rigid
 from ..bodies.polytopes import fromHalfSpaces, randomColour
-from ..pictures.faces import rows
 from ..precision import real
+from ..scene.vertices import rows
 from .faceMaterials import faceMaterials, materialsOfFaces
 from .inPlane import asSegment, expectedInPlane, flatCut, flatSet, outlinesOf
 from .joint import Joint, areasOf, asArguments, finite

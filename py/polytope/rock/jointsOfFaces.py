@@ -11,7 +11,8 @@ from yade import O, Polytope
 from ..bodies.halfSpaces import worldPlanes
 from ..measures.arrays import arrays
 from ..pictures.faceColors import ofFaces
-from ..pictures.faces import collect, rows
+from ..pictures.faces import collect
+from ..scene.vertices import rows
 from .faceMaterials import facesThatCount, facing
 
 __all__ = ['contactJoints', 'jointsOfFaces', 'jointsOfPlanes', 'keep', 'replaceInRocks', 'setsOf', 'writeFaces']

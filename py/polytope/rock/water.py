@@ -8,10 +8,10 @@ import numpy as np
 from yade import O, Polytope, PolytopeWater, Vector3, _polytope
 
 from ..arguments import namedArguments, number, vector, warn
-from ..pictures.faces import worldVertices
 from ..precision import isNumber
 from ..scene.movers import canMove
 from ..scene.present import insertEngine, integrators, placeOfForces
+from ..scene.vertices import worldVertices
 from .faces import areaVector
 from .pressureFields import alongALine, belowALevel, belowASection, belowASurface, sectionOf
 from .twoWaters import refuseTwice

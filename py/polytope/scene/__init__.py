@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The present scene: its engines, saved states, time step."""
+"""The present scene: its engines, saved states, time step, vertices of its bodies."""

@@ -271,7 +271,7 @@ O.bodies.append([body, corner])
 turn = corner.state.ori
 core = [turn * vertex + corner.state.pos for vertex in corner.shape.vertices]
 off = max(min((Vector3(*point) - vertex).norm() for vertex in core) for point in points)
-from yade.polytope.pictures.faces import worldVertices
+from yade.polytope.scene.vertices import worldVertices
 shown = worldVertices(body) - [1, 2, 3]
 PolytopeVTKRecorder(fileName=sys.argv[2], recorders=['bodies'])()
 O.save(sys.argv[3])

@@ -152,7 +152,7 @@ def testTheProductImportsNothingOfReproductionAndMeasurement():
 			assert not re.match(r'yade\.polytope\b', name), f'{path.name} imports {name}; within the product imports are relative'
 
 
-parts = """precision arguments _sharedArguments _builds pictures scene bodies bonding measures _timing rest strengthReduction rock check engines
+parts = """precision arguments _sharedArguments _builds scene pictures bodies bonding measures _timing rest strengthReduction rock check engines
 loading breakage dynamics mpi frictionReduction motionRecord tradeoff extensions _helpTexts""".split()
 """Folders and modules of py/polytope, in this order."""
 

@@ -13,7 +13,7 @@ from yade import O, Quaternion, _polytope
 from ...arguments import vectors
 from ...bodies.halfSpaces import worldPlanes
 from ...bodies.polytopes import isotropyTolerance
-from ...pictures.faces import rows
+from ...scene.vertices import rows
 from ..commonFaces import materialOf, planeOf
 from .supports import inLine
 

@@ -10,9 +10,9 @@ from yade import Body, O, Vector3, _polytope
 from ...arguments import numbersOf, rows, vectors
 from ...bodies.pieces import pieceOf
 from ...bodies.polytopes import areFlat
-from ...pictures.faces import worldVertices
 from ...precision import real
 from ...scene.movers import partsOf
+from ...scene.vertices import worldVertices
 from ..joint import Cut, asArguments
 from ..jointedRock import mostBlocks, smallestBridge
 from ..region import areSeveral

@@ -8,12 +8,12 @@ from yade import O, Polytope, RockJointMat
 
 from ...bodies.halfSpaces import worldPlanes
 from ...bonding.bonds import intactBonds
-from ...pictures.faces import worldVertices
 from ...scene.movers import canMove, moverOf
 from ...scene.namedBodies import namedBodies
 from ...scene.present import contactSettings, interactionLoops, jointMakers, laws
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker
+from ...scene.vertices import worldVertices
 from ..commonFaces import contactOf, lesser, materialsOfSides
 from ..faceMaterials import materialsOf
 from ..faces import areaOfFace

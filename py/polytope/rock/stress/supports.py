@@ -12,8 +12,8 @@ import scipy  # loads its packages at their first use
 from yade import O, Polytope
 
 from ...bodies.halfSpaces import worldPlanes
-from ...pictures.faces import worldVertices
 from ...scene.movers import canMove
+from ...scene.vertices import worldVertices
 from ..faceMaterials import materialOfPlane
 
 __all__ = ['inLine']
