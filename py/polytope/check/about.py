@@ -32,7 +32,7 @@ def aboutScene(scene):
 		if any(not scene.moves(body) for body in scene.bodies)
 		else ['nothing is fixed']
 	)
-	gravity = [f'gravity is {tuple(float(f"{float(g):.6g}") for g in engine.gravity)} m/s²' for engine in scene.integrators[:1]]
+	gravity = [f'gravity is {tuple(float(f"{g:.6g}") for g in scene.totalGravity)} m/s²'] if scene.integrators else []
 	return '; '.join([', '.join(said), *fixed, *gravity])
 
 

@@ -2,9 +2,10 @@
 """The third dimension, of polytope.check(O, costs=True): whether all bodies are prisms side by side, and what moves stays in the xy plane."""
 
 import numpy as np
-from yade import NewtonIntegrator, O, Polytope, Vector3
+from yade import O, Polytope
 
 from ..bodies.polytopes import polygon
+from ..scene.present import gravityOf
 from ..scene.vertices import worldVertices
 
 __all__ = ['dimension', 'makePolygons']
@@ -83,7 +84,7 @@ def _staysInPlane(O, moving):
 	# permanent forces are not asked for: O.forces.permF reads out of bounds for bodies that have none
 	if central or O.forces.getPermForceUsed() or np.abs(loads[:, 2]).max() > rounding * np.abs(loads).max():
 		return False
-	gravity = max((Vector3(engine.gravity).norm() for engine in O.engines if isinstance(engine, NewtonIntegrator)), default=0)
+	gravity = gravityOf(O.engines).norm()
 	size = min(float(body.shape.inscribedRadius) for body in moving)
 	velocity, spin = (np.abs([[float(x) for x in getattr(body.state, name)] for body in moving]).max(axis=0) for name in ('vel', 'angVel'))
 	scale = max(velocity[0], velocity[1], spin[2] * size, float(gravity) * float(O.dt))

@@ -11,6 +11,7 @@ from yade import InsertionSortCollider, InteractionLoop, NewtonIntegrator, Polyt
 
 from ..bonding.bonds import intactBonds
 from ..scene.movers import canMove
+from ..scene.present import gravityOf
 from .falling import belowAll
 
 __all__ = ['Kind', 'SceneToCheck']
@@ -49,13 +50,13 @@ class SceneToCheck:
 		return canMove(body)
 
 	def gravity(self):
-		"""Largest of the integrators [m/s²]."""
-		return max((float(sum(x * x for x in engine.gravity)) ** 0.5 for engine in self.integrators), default=0.0)
+		"""Size of *totalGravity* [m/s²]."""
+		return float(np.linalg.norm(self.totalGravity))
 
 	@functools.cached_property
 	def totalGravity(self):
 		"""(3,) of all integrators together [m/s²]"""
-		return np.sum([np.array(engine.gravity, float) for engine in self.integrators] or [np.zeros(3)], axis=0)
+		return np.array(gravityOf(self.engines), float)
 
 	@functools.cached_property
 	def down(self):

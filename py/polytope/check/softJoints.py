@@ -67,8 +67,7 @@ def stableTilt(ratio, softness):
 
 def softJoints(scene):
 	"""Blocks that stand on a face; those that slide before they topple lose nothing."""
-	gravity = max((np.array([float(g) for g in engine.gravity]) for engine in scene.integrators), key=np.linalg.norm, default=np.zeros(3))
-	size = float(np.linalg.norm(gravity))
+	gravity, size = scene.totalGravity, scene.gravity()
 	makers = jointMakers(scene.loops)
 	if not size > 0 or not makers or makers[0].kn:  # a MatchMaker: its values are not known here
 		return

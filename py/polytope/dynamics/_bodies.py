@@ -7,7 +7,7 @@ from yade import O, VelocityHistory
 
 from ..scene.present import integrators
 
-__all__ = ['bodiesOf', 'historyOf', 'integrator']
+__all__ = ['bodiesOf', 'historyOf', 'refuseWithoutIntegrator']
 
 
 def bodiesOf(ids):
@@ -38,12 +38,11 @@ def historyOf(given):
 	return given
 
 
-def integrator():
-	"""The NewtonIntegrator of O.engines. ValueError where there is none."""
+def refuseWithoutIntegrator():
+	"""ValueError where O.engines has no NewtonIntegrator, RuntimeError while the scene runs."""
 	if O.running:
 		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
 	if not integrators():
 		raise ValueError(
 			'O.engines: there must be a NewtonIntegrator; set O.engines first, for example O.engines = polytope.engines(damping=0)'
 		)
-	return integrators()[0]

@@ -4,7 +4,8 @@
 from yade import BaseMotion, O, QuietBoundary
 
 from ..arguments import namedArguments
-from ._bodies import bodiesOf, historyOf, integrator
+from ..scene.present import integrators
+from ._bodies import bodiesOf, historyOf, refuseWithoutIntegrator
 
 __all__ = ['baseMotion']
 
@@ -37,7 +38,8 @@ def baseMotion(ids, history):
 		raise ValueError('ids: O.engines has a BaseMotion for some of them; remove it first')
 	if any(set(one.ids) & set(ids) for one in O.engines if isinstance(one, QuietBoundary)):
 		raise ValueError('ids: some of them are a quiet boundary, which moves freely; give the record to quietBoundary (history=)')
-	damping = float(integrator().damping)
+	refuseWithoutIntegrator()
+	damping = max((float(one.damping) for one in integrators() if not one.dead), default=0.0)
 	if damping != 0:
 		raise ValueError(
 			f'damping: NewtonIntegrator has {damping:g}, which acts on absolute velocities and would hold back what the base carries along; '

@@ -9,9 +9,9 @@ from ..bonding.bonds import madeBonds
 from ..precision import real
 from ..rock.faces import areaVector, centroidOf
 from ..scene.permanentLoads import permanentLoads
-from ..scene.present import insertEngine, placeOfForces
+from ..scene.present import gravityOf, insertEngine, placeOfForces
 from ..scene.vertices import localVertices
-from ._bodies import bodiesOf, historyOf, integrator
+from ._bodies import bodiesOf, historyOf, refuseWithoutIntegrator
 
 __all__ = ['quietBoundary']
 
@@ -61,7 +61,8 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 		raise ValueError(
 			f'ids: body {driven[0]} is moved by a BaseMotion, and a quiet boundary must be free to move; give the record to the boundary (history=), or remove the BaseMotion first'
 		)
-	gravity, place = integrator().gravity, placeOfForces('the dashpots act')
+	refuseWithoutIntegrator()
+	gravity, place = gravityOf(), placeOfForces('the dashpots act')
 	areas, faces = zip(*(_outerFace(k, normal) for k in ids), strict=True)
 	_refuseLoadedFaces(ids, normal)
 	borne = _contactForces(ids)

@@ -6,7 +6,7 @@ from yade import O, PolytopeGeom, RockJointPhys, Vector3
 from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
 from ..scene.movers import canMove, movers
-from ..scene.present import contactSettings, geometryFunctors, integrators, meanwhile
+from ..scene.present import contactSettings, geometryFunctors, gravityOf, integrators, meanwhile
 
 __all__ = ['mechanicalEnergy', 'storedEnergy']
 
@@ -20,7 +20,7 @@ def mechanicalEnergy():
 	any time step (with the squares of one of them it would oscillate by f·v Δt/2). Rotation is that of NewtonIntegrator's default for
 	unequal moments of inertia (rotAlgorithm delValle2023). Springs: of rock joints as their law books them, with dilation, tension and a closure of
 	their own; of others kn × *PolytopeGeom.energyPerStiffness* where there is one, else kn depth²/2, and shear force²/(2 ks). Heights are
-	above z = 0, along the gravity of O.engines' NewtonIntegrator.
+	above z = 0, along gravity: that of O.engines' NewtonIntegrator, of several the sum.
 
 	Contacts of other laws count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not
 	the energy.
@@ -41,7 +41,8 @@ def mechanicalEnergy():
 	stored = sum(sum(storedEnergy(contact)) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(
 		one.energy for one in madeBonds() + madeBolts()
 	)
-	return sum(_energy(*one, integrators()[0].gravity) for one in moving) + stored
+	gravity = gravityOf()
+	return sum(_energy(*one, gravity) for one in moving) + stored
 
 
 def _motion(state):

@@ -5,7 +5,8 @@ import math
 import numbers
 
 import numpy as np
-from yade import NewtonIntegrator, O
+
+from ..scene.present import gravityOf
 
 __all__ = ['against', 'cameraFor', 'fromTheFront', 'pixels', 'unit', 'viewAxes']
 
@@ -48,11 +49,9 @@ def viewAxes(view, up, flat):
 
 def against(flat):
 	"""Direction against gravity; of scenes without gravity z, of polygons y."""
-	for engine in O.engines:
-		if isinstance(engine, NewtonIntegrator):
-			gravity = np.array(engine.gravity, float) * ((1, 1, 0) if flat else 1)
-			if gravity.any():
-				return -gravity
+	gravity = np.array(gravityOf(), float) * ((1, 1, 0) if flat else 1)
+	if gravity.any():
+		return -gravity
 	return (0, 1, 0) if flat else (0, 0, 1)
 
 

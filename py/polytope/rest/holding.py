@@ -8,7 +8,7 @@ from ..bonding.bolting import madeBolts
 from ..bonding.bonds import facingFaces, intactBonds
 from ..measures.arrays import arrays
 from ..scene.movers import moverOf, partsOf
-from ..scene.present import integrators
+from ..scene.present import gravityOf
 
 __all__ = ['areJoined', 'facingPairs', 'isHeld', 'isThin', 'joinedPairs', 'touched', 'unsupported']
 
@@ -107,7 +107,7 @@ class _Boxes:
 	"""Boxes around all bodies, as the collider has them."""
 
 	def __init__(self):
-		gravity = np.array(integrators()[0].gravity, float)
+		gravity = np.array(gravityOf(), float)
 		self.down = gravity / np.linalg.norm(gravity) if gravity.any() else None
 		there = [body for body in O.bodies if body is not None and not body.isClump and body.bound is not None]
 		self.row = {body.id: row for row, body in enumerate(there)}

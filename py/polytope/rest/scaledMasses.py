@@ -9,7 +9,7 @@ from yade import BaseMotion, O, PolytopeCheckpoint, PolytopeTimeStepper, QuietBo
 
 from ..scene.movers import movers
 from ..scene.permanentLoads import permanentLoads
-from ..scene.present import integrators, meanwhile
+from ..scene.present import gravityOf, meanwhile
 from ..scene.timeStep import safeTimeStep
 
 __all__ = ['scaledMasses', 'scaledMassesIfPossible']
@@ -95,7 +95,7 @@ class _Scaled:
 		}
 		self.masses = {key: mass for key, (mass, _) in self.before.items()}
 		self.factors = dict.fromkeys(self.before, 1.0)
-		self.gravity = integrators()[0].gravity
+		self.gravity = gravityOf()
 		self.loads = {key: force for key, (force, _) in permanentLoads().items()}
 		self.target = self.gain = None
 

@@ -9,7 +9,7 @@ from ..bonding.bonds import intactBonds
 from ..measures.arrays import arrays
 from ..scene.movers import movers
 from ..scene.permanentLoads import permanentLoads
-from ..scene.present import integrators
+from ..scene.present import gravityOf
 
 __all__ = ['resultants', 'unbalancedForce', 'unbalancedForces']
 
@@ -43,7 +43,7 @@ def unbalancedForces(watched=None, masses=None):
 	for link, force in forces:
 		for key in (link.id1, link.id2):
 			borne[owner[key]] += float(force) / 2
-	scale = np.maximum(_trueMasses(bodies, masses) * np.linalg.norm(np.array(integrators()[0].gravity, float)), borne)
+	scale = np.maximum(_trueMasses(bodies, masses) * np.linalg.norm(np.array(gravityOf(), float)), borne)
 	moving = np.flatnonzero(scale > 0)
 	if watched is not None:
 		moving = np.intersect1d(moving, np.fromiter(watched, int))
@@ -64,7 +64,7 @@ def resultants():
 			found[key] += [float(x) for x in force]
 	present = np.zeros(last)
 	present[bodies.ids] = bodies.masses  # a scaled mass comes with a permanent force that takes away what it adds to the weight
-	found = found + np.outer(present, np.array(integrators()[0].gravity, float))  # whole numbers where there is none
+	found = found + np.outer(present, np.array(gravityOf(), float))  # whole numbers where there is none
 	moving, free = _movers()
 	held = np.zeros((last, 3))
 	held[moving] = free * found[moving]  # what is held bears any force

@@ -10,7 +10,7 @@ from yade import O, Polytope, PolytopeWater, Vector3, _polytope
 from ..arguments import namedArguments, number, vector, warn
 from ..precision import isNumber
 from ..scene.movers import canMove
-from ..scene.present import insertEngine, integrators, placeOfForces
+from ..scene.present import gravityOf, insertEngine, placeOfForces
 from ..scene.vertices import worldVertices
 from .faces import areaVector
 from .pressureFields import alongALine, belowALevel, belowASection, belowASurface, sectionOf
@@ -121,7 +121,7 @@ def _below(level, density, bodies, someFaces):
 	density = number(density, 'density')
 	if not 0 < density < math.inf:
 		raise ValueError(f'density: must be above 0 [kg/m³], water has 1000, got {density:g}')
-	gravity = np.array([float(x) for x in integrators()[0].gravity])
+	gravity = np.array([float(x) for x in gravityOf()])
 	if density < least:
 		warn(f'density: {density:g} kg/m³ is no water, which has 1000: in t/m³? Lengths are in m, masses in kg')
 	weight = float(density) * float(np.linalg.norm(gravity))

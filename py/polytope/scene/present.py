@@ -13,6 +13,7 @@ from yade import (
 	O,
 	PolytopeGeomFunctor,
 	RockJointMat,
+	Vector3,
 )
 
 __all__ = [
@@ -20,6 +21,7 @@ __all__ = [
 	'colliders',
 	'contactSettings',
 	'geometryFunctors',
+	'gravityOf',
 	'insertEngine',
 	'integrators',
 	'interactionLoops',
@@ -56,6 +58,16 @@ def contactSettings(loops=None):
 
 def integrators():
 	return [engine for engine in O.engines if isinstance(engine, NewtonIntegrator)]
+
+
+def gravityOf(engines=None):
+	"""Acceleration of bodies that move freely: each NewtonIntegrator that is not dead adds its own gravity [m/s²].
+
+	:param engines: those of the scene; default O.engines
+	:returns: Vector3
+	"""
+	engines = O.engines if engines is None else engines
+	return sum((one.gravity for one in engines if isinstance(one, NewtonIntegrator) and not one.dead), Vector3.Zero)
 
 
 def colliders():

@@ -6,7 +6,8 @@ import warnings
 import numpy as np
 import pytest
 from scenes import rowInAPeriodicCell
-from yade import NewtonIntegrator, O, Quaternion, RockJointMat, Vector3, polytope, utils
+from yade import ForceResetter, NewtonIntegrator, O, Quaternion, RockJointMat, Vector3, polytope, utils
+from yade.polytope.scene.present import gravityOf
 
 g, density = 10, 2600
 
@@ -205,3 +206,20 @@ def testFreeSpheresAreNotLeftOutOfPorositySilently():
 	with warnings.catch_warnings():
 		warnings.simplefilter('error')
 		assert polytope.porosity((-1, -1, -1), (1, 1, 1), ids=[0]) == pytest.approx(7 / 8)
+
+
+def testGravityIsThatOfAllIntegratorsThatAct():
+	"""As YADE moves a body: each NewtonIntegrator that is not dead adds its own gravity."""
+	falling = O.bodies[O.bodies.append(polytope.cuboid((0, 0, 5), (0.5, 0.5, 0.5)))].state
+	parts = (0, 3, -7), (2, 0, -3)
+	O.engines = [
+		ForceResetter(),
+		NewtonIntegrator(gravity=(0, 0, -1000), damping=0, dead=True),
+		*(NewtonIntegrator(gravity=part, damping=0) for part in parts),
+	]
+	assert tuple(gravityOf()) == (2, 3, -10)
+	energy = polytope.mechanicalEnergy()
+	assert tuple(falling.vel / O.dt) == pytest.approx((2, 3, -10))
+	assert energy == pytest.approx(falling.mass * 10 * 5, rel=1e-6)
+	O.engines = O.engines[:2]
+	assert tuple(gravityOf()) == (0, 0, 0)

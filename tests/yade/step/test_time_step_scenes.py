@@ -181,3 +181,13 @@ def testWithoutALoopOnlyMotionLimits():
 	engine = stepper()
 	O.step()
 	assert engine.limitedBy == 'motion' and O.dt == pytest.approx(math.sqrt(0.1 * 0.5 / gravity))
+
+
+def testGravityOfAllIntegratorsThatActLimitsTheMotion():
+	joint()
+	blockOnFloor()
+	parts = [NewtonIntegrator(gravity=(0, 0, -share * gravity)) for share in (0.75, 0.25)]
+	O.engines = [ForceResetter(), *parts, NewtonIntegrator(gravity=(0, 0, -100 * gravity), dead=True)]
+	engine = stepper()
+	O.step()
+	assert engine.limitedBy == 'motion' and O.dt == pytest.approx(math.sqrt(0.1 * 0.5 / gravity))

@@ -5,7 +5,7 @@ from yade import O, PolytopeGeom, PolytopeWater, RockJointPhys, Vector3
 
 from ...bonding.bonds import presentBonds
 from ...scene.movers import canMove, partsOf
-from ...scene.present import integrators
+from ...scene.present import gravityOf
 
 __all__ = ['less', 'loadsAtRest', 'removedForces', 'weightAndWater']
 
@@ -37,7 +37,7 @@ def less(loads, others):
 
 def weightAndWater(movers):
 	"""id → (force, torque about its centre) of bodies and clumps."""
-	gravity = integrators()[0].gravity
+	gravity = gravityOf()
 	waters = [engine for engine in O.engines if isinstance(engine, PolytopeWater)]
 	loads = {k: (O.bodies[k].state.mass * gravity, Vector3.Zero) for k in movers}
 	for k in movers:

@@ -6,7 +6,7 @@ from yade import O, PolytopeWater
 
 from ...arguments import warn
 from ...scene.movers import canMove, moverOf
-from ...scene.present import integrators
+from ...scene.present import gravityOf
 from ..commonFaces import materialOf
 from .refusals import accuracy, forcesBorne
 
@@ -20,7 +20,7 @@ for slivers (test_in_situ.py)."""
 def warnOfGravity(field, faces, chosen):
 	"""Where the divergence of the stress, which is that between the blocks (effective), is not weight and water."""
 	waters = [engine for engine in O.engines if isinstance(engine, PolytopeWater) and not engine.dead]
-	gravity = np.array(integrators()[0].gravity, float) if integrators() else np.zeros(3)
+	gravity = np.array(gravityOf(), float)
 	bears, forces = forcesBorne(field, faces), {}
 	for k in chosen:
 		body = O.bodies[k]
