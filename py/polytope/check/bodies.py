@@ -9,7 +9,7 @@ from yade import Box, Facet, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPh
 from ..bodies.meshes.facets import haveAreas
 from ..bonding.bonds import bonds
 from ..rock.faceMaterials import materialsOf
-from ..scene.movers import isMover
+from ..scene.movers import cannotTurn, isMover
 from ..scene.present import isPerArea, jointMakers, jointMaterials
 from ..scene.radii import outerRadius
 from .about import extentOf, extentOfSupports
@@ -125,7 +125,7 @@ def mass(scene):
 
 
 def _turns(body):
-	return isinstance(body.shape, Polytope) and body.shape.dimension == 3 and not set('XYZ') <= set(body.state.blockedDOFs)
+	return isinstance(body.shape, Polytope) and body.shape.dimension == 3 and not cannotTurn(body)
 
 
 def size(scene):

@@ -4,6 +4,7 @@
 import numpy as np
 from yade import O, Polytope
 
+from ..bodies.halfSpaces import worldPlanes
 from ..bodies.polytopes import polygon
 from ..scene.present import gravityOf
 from ..scene.vertices import worldVertices
@@ -41,9 +42,7 @@ def dimension(scene):
 
 def _outline(body):
 	"""Corners of the cross-section of a polyhedron that is a prism along z where it is, in order, as (n, 2) array; None if it is none."""
-	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-	normals = np.array(body.shape.normals, float).reshape(-1, 3) @ turn.T
-	along = np.abs(normals[:, 2])
+	along = np.abs(worldPlanes(body)[0][:, 2])
 	if not np.all((along < flat) | (along > 1 - flat)):
 		return None
 	corners = worldVertices(body)

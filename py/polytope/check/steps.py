@@ -17,7 +17,7 @@ from yade import (
 	TimeStepper,
 )
 
-from ..scene.movers import moverOf
+from ..scene.movers import cannotTurn, moverOf
 from ..scene.radii import inscribedRadius
 from ..scene.timeStep import safeTimeStep
 
@@ -140,13 +140,9 @@ def _passes(body):
 def _turns(scene, body, driven):
 	"""Whether it turns, or may turn, pushed by others; a member turns with its clump."""
 	whole = scene.O.bodies[moverOf(body.id)]
-	return whole.id in driven or body.id in driven or float(whole.state.angVel.norm()) > 0 or (scene.moves(body) and not _held(whole))
-
-
-def _held(body):
-	return set('XYZ') <= set(body.state.blockedDOFs)
+	return whole.id in driven or body.id in driven or float(whole.state.angVel.norm()) > 0 or (scene.moves(body) and not cannotTurn(whole))
 
 
 def _seemsToRest(body):
 	"""When its box is made: Bo1_Polytope_Aabb gives it a tight one."""
-	return not body.isClumpMember and _held(body) and not float(body.state.angVel.norm()) > 0
+	return not body.isClumpMember and cannotTurn(body) and not float(body.state.angVel.norm()) > 0

@@ -10,7 +10,7 @@ from yade import O, Polytope, Sphere, Vector3, _polytope
 from ..arguments import warn
 from ..bodies.halfSpaces import boxPlanes, convexRegion
 from ..bodies.polytopes import fromHalfSpaces
-from ..scene.movers import moverOf, partsOf
+from ..scene.movers import canMove, partsOf
 from ..scene.namedBodies import namedBodies
 from ..scene.vertices import localVertices
 
@@ -37,7 +37,7 @@ def porosity(lower=None, upper=None, ids=None, region=None):
 	solids = [[O.bodies[part] for part in partsOf(k)] for k in namedBodies(ids)]
 	if ids is None:  # what is no polytope in a clump is warned of, too
 		solids = [[part for part in parts if isinstance(part.shape, Polytope)] for parts in solids]
-	spheres = sum(isinstance(body.shape, Sphere) and O.bodies[moverOf(body.id)].dynamic for body in O.bodies if body) if ids is None else 0
+	spheres = sum(isinstance(body.shape, Sphere) and canMove(body) for body in O.bodies if body) if ids is None else 0
 	if spheres:
 		warn(f'ids: the volume of {spheres} free spheres is not counted, only that of polytopes; give ids to say that this is meant')
 	if lower is None and upper is None and region is None:

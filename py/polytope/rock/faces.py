@@ -6,7 +6,7 @@ from yade import _polytope
 
 from ..arguments import numbersOf, vectors
 
-__all__ = ['areaOfFace', 'areaVector', 'centroidOf', 'frameOf', 'shapeOf']
+__all__ = ['areaOfFace', 'areaVector', 'centroidOf', 'frameOf', 'shapeOf', 'triangles']
 
 onPlane = 1e-9
 """Tolerance on the corners of a block's face, as a part of the block's extent: how far from the face's plane they may be computed."""
@@ -33,16 +33,16 @@ def areaOfFace(corners, normal, offset):
 
 def areaVector(corners):
 	"""Normal times area [m²] of a polygon of these corners (n, 3), which turn to the left about it."""
-	return _triangles(corners).sum(axis=0)
+	return triangles(corners).sum(axis=0)
 
 
 def centroidOf(corners):
 	"""Centroid [m] of a convex polygon of these corners (n, 3), by the triangles about its first corner."""
 	arms = corners[1:] - corners[0]
-	return corners[0] + np.average((arms[:-1] + arms[1:]) / 3, axis=0, weights=np.linalg.norm(_triangles(corners), axis=1))
+	return corners[0] + np.average((arms[:-1] + arms[1:]) / 3, axis=0, weights=np.linalg.norm(triangles(corners), axis=1))
 
 
-def _triangles(corners):
+def triangles(corners):
 	"""Normals times areas [m²] of the triangles about the first corner."""
 	arms = corners[1:] - corners[0]
 	return np.cross(arms[:-1], arms[1:]) / 2

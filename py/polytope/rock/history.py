@@ -11,7 +11,7 @@ from yade import O, Polytope, PyRunner, Vector3
 
 from ..arguments import flag, namedArguments, point, warn
 from ..measures.stress import bodyStress
-from ..scene.movers import moverOf, partsOf
+from ..scene.movers import canMove, moverOf, partsOf
 
 __all__ = ['followParts', 'histories', 'history', 'record']
 
@@ -180,7 +180,7 @@ def _inScene(given, name):
 def _bodyAt(name, place):
 	found = []
 	for body in O.bodies:
-		if body is None or not isinstance(body.shape, Polytope) or not O.bodies[moverOf(body.id)].dynamic:
+		if body is None or not isinstance(body.shape, Polytope) or not canMove(body):
 			continue
 		if _holds(body.id, place):
 			found += [] if moverOf(body.id) in found else [moverOf(body.id)]

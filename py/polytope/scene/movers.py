@@ -3,7 +3,7 @@
 
 from yade import O
 
-__all__ = ['canMove', 'isMover', 'moverOf', 'movers', 'partsOf', 'sameClump']
+__all__ = ['canMove', 'cannotTurn', 'isMover', 'moverOf', 'movers', 'partsOf', 'sameClump']
 
 
 def partsOf(k):
@@ -30,6 +30,11 @@ def movers():
 def canMove(body):
 	"""Whether forces move it: a member of a clump moves with the clump."""
 	return (O.bodies[body.clumpId] if body.isClumpMember else body).dynamic
+
+
+def cannotTurn(body):
+	"""Whether all of its rotations are blocked."""
+	return set('XYZ') <= set(body.state.blockedDOFs)
 
 
 def sameClump(one, other):

@@ -15,7 +15,7 @@ from ...scene.present import integrators
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker, sizeOf
 from ..commonFaces import boundFaces, commonFaces, lesser, materialsOfSides
-from ..faces import frameOf
+from ..faces import frameOf, triangles
 from ..stress.forces import weightAndWater
 
 __all__ = ['Blocks', 'Corners', 'blocksOf', 'cornersOf', 'refuseScene']
@@ -220,6 +220,5 @@ def _strengthsOf(face, bond):
 
 def _areas(face):
 	"""Half of the two triangles with the centroid beside each corner: so much at the corners has the face's area and centroid."""
-	arms = face.corners - face.centroid
-	triangles = np.linalg.norm(np.cross(arms, np.roll(arms, -1, axis=0)), axis=1) / 2
-	return (triangles + np.roll(triangles, 1)) / 2
+	areas = np.linalg.norm(triangles(np.vstack([face.centroid, face.corners, face.corners[:1]])), axis=1)
+	return (areas + np.roll(areas, 1)) / 2
