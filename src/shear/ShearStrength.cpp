@@ -152,14 +152,6 @@ ShearStrength::ShearStrength(const Vector2* corner, int count, const OutlineMome
 	leastRadius_ = farthest_ > 0 ? (second_[0] + second_[2]) / farthest_ : Real(0);
 }
 
-Real ShearStrength::meanRadius() const
-{
-	Sums sums;
-	for (int k = 0; k < count_; ++k)
-		addEdge(corner(k), corner(k + 1 < count_ ? k + 1 : 0), atCentre_, sums);
-	return sums.distance / total_;
-}
-
 /// The triangle between the pole, where τ would be `atPole`, and an edge, whose ends are seen from there.
 void ShearStrength::addEdge(const Vector2& from, const Vector2& to, Real atPole, Sums& sums) const
 {

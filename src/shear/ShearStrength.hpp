@@ -31,10 +31,8 @@ public:
 	Real total() const { return total_; }
 	/// Centre of the strength, about which moments are taken [m].
 	const Vector2& centre() const { return centre_; }
-	/// Mean distance of the strength from its centre [m]: turned on the spot, the face resists with total × this.
-	Real meanRadius() const;
-
-	/// A bound of the mean distance from below, known without any roots [m].
+	/// A bound from below, known without any roots, of the mean distance of the strength from its centre [m]: turned on the spot, the face resists with
+	/// total × that distance.
 	Real leastRadius() const { return leastRadius_; }
 
 	/// Force [N] and moment about the centre [N m] by which the face resists a slip (s₁, s₂ [m], φ [rad]) of its centre, and their derivatives.
@@ -62,7 +60,7 @@ private:
 	Real           atCentre_    = 0;               ///< τ there [Pa]
 	Vector2        gradient_    = Vector2::Zero(); ///< of τ [Pa/m]
 	Real           farthest_    = 0;               ///< corner from the centre [m]
-	Real           leastRadius_ = 0;               ///< not above meanRadius()
+	Real           leastRadius_ = 0;               ///< not above the mean distance
 	Real           second_[3] { 0, 0, 0 };         ///< ∫ τ u², ∫ τ u v, ∫ τ v² dA / ∫ τ dA about the centre [m²]
 };
 
