@@ -12,7 +12,7 @@ constexpr Real pieceBox = 4;
 
 /// Two planes whose normals differ by no more than this, and offsets by no more than this × size, are one plane: that is what is left of
 /// coincident planes after they have been placed in one frame. The product of two inverse rotations is off by up to 13 roundings, and faces in line of
-/// blocks that were cut from one mass by some tens. Where a few roundings decide whether they are one, a force of the order of depth over size comes and goes.
+/// blocks that were cut from one mass by up to 16. Where a few roundings decide whether they are one, a force of the order of depth over size comes and goes.
 constexpr Real twinPlanes = 64 * rounding;
 
 /// Sine of the angle between two lines below which their crossing is interpolated between the ends of the line that is cut: below, the
