@@ -11,9 +11,9 @@ namespace polytope::tolerance {
 constexpr Real pieceBox = 4;
 
 /// Two planes whose normals differ by no more than this, and offsets by no more than this × size, are one plane: that is what is left of
-/// coincident planes after they have been placed in one frame. The product of two inverse rotations is off by up to 13 roundings, and faces in line of
-/// blocks that were cut from one mass by up to 16. Where a few roundings decide whether they are one, a force of the order of depth over size comes and goes.
-constexpr Real twinPlanes = 64 * rounding;
+/// coincident planes after they have been placed in one frame. Faces in line of blocks that were cut from one mass are off by up to 16 roundings, but with
+/// a wider bound overlaps that are a few roundings deep lose digits. A force of the order of depth over size comes and goes at the bound.
+constexpr Real twinPlanes = 8 * rounding;
 
 /// Sine of the angle between two lines below which their crossing is interpolated between the ends of the line that is cut: below, the
 /// crossing loses more digits than the ends have.
