@@ -11,8 +11,8 @@ namespace polytope::tolerance {
 constexpr Real pieceBox = 4;
 
 /// Two planes whose normals differ by no more than this, and offsets by no more than this × size, are one plane: that is what is left of
-/// coincident planes after they have been placed in one frame. Faces in line of blocks that were cut from one mass are off by up to 16 roundings, but with
-/// a wider bound overlaps that are a few roundings deep lose digits. A force of the order of depth over size comes and goes at the bound.
+/// coincident planes after they have been placed in one frame. Faces in line of blocks that were cut from one mass may be off by more, but with a wider
+/// bound overlaps that are some roundings deep lose digits (ContactSurfaceTest.cpp). A force of the order of depth over size comes and goes at the bound.
 constexpr Real twinPlanes = 8 * rounding;
 
 /// Sine of the angle between two lines below which their crossing is interpolated between the ends of the line that is cut: below, the

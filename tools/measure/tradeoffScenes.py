@@ -109,10 +109,14 @@ frictionSteps = (8, 1, 0.1, 0.01)
 """[°]; half of the last is how exactly an angle is known."""
 
 
+def jointsOfWedges(stiffness):
+	"""Joints of both wedges; *stiffness* is over the paper's."""
+	return {'normalStiffness': 1e7 * stiffness, 'shearStiffness': 1e7 * stiffness}
+
+
 def buildSlidingWedge(model, stiffness=1):
 	global scene
-	joints = {'normalStiffness': 1e7 * stiffness, 'shearStiffness': 1e7 * stiffness}
-	scene = WedgeScene(block('c_sliding_wedge.json'), contactModel=model, **joints).build()
+	scene = WedgeScene(block('c_sliding_wedge.json'), contactModel=model, **jointsOfWedges(stiffness)).build()
 
 
 def measureSlidingWedge():
@@ -122,8 +126,7 @@ def measureSlidingWedge():
 
 def buildRoofWedge(model=models[0], stiffness=1):
 	global scene
-	joints = {'normalStiffness': 1e7 * stiffness, 'shearStiffness': 1e7 * stiffness}
-	scene = RoofWedge(block('d_roof_wedge.json'), contactModel=model, **joints).build()
+	scene = RoofWedge(block('d_roof_wedge.json'), contactModel=model, **jointsOfWedges(stiffness)).build()
 
 
 def measureRoofWedge():

@@ -125,17 +125,16 @@ def geometry(scene, one, other):
 	if derived and any(_functor(loop.geomDispatcher, *shapes) for loop in scene.loops):
 		seen = f'there is no functor for {one.shape} and {other.shape}: {derived.shape} is taken for the Polytope of its planes'
 		return 'contact functors', seen, advice
-	if derived:
+	strangers = [kind for kind in (one, other) if kind.shape not in exactly]
+	if derived or (strangers and ownContactsOf(one.shape, other.shape)):
 		return 'contact functors', noFunctor.format(one.shape, other.shape), advice
-	for kind in (one, other):
-		if kind.shape not in exactly and ownContactsOf(one.shape, other.shape):
-			return 'contact functors', noFunctor.format(one.shape, other.shape), advice
-		if kind.shape not in exactly:
-			taken = getattr(yade, kind.shape, None)
-			like = ', and is taken for a sphere' if taken and issubclass(taken, yade.Sphere) else ''
-			advice = 'make the body of convex polytopes (fromVertices, fromMesh), or its surface of Facets'
-			return 'contact functors', f'{kind.shape} has no contact with polytopes{like}', advice
-	return None
+	if not strangers:
+		return None
+	name = strangers[0].shape
+	taken = getattr(yade, name, None)
+	like = ', and is taken for a sphere' if taken and issubclass(taken, yade.Sphere) else ''
+	advice = 'make the body of convex polytopes (fromVertices, fromMesh), or its surface of Facets'
+	return 'contact functors', f'{name} has no contact with polytopes{like}', advice
 
 
 def flat(one, other):

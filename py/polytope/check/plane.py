@@ -83,7 +83,7 @@ def _staysInPlane(O, moving):
 	# permanent forces are not asked for: O.forces.permF reads out of bounds for bodies that have none
 	if central or O.forces.getPermForceUsed() or np.abs(loads[:, 2]).max() > rounding * np.abs(loads).max():
 		return False
-	gravity = gravityOf(O.engines).norm()
+	gravity = gravityOf().norm()
 	size = min(float(body.shape.inscribedRadius) for body in moving)
 	velocity, spin = (np.abs([[float(x) for x in getattr(body.state, name)] for body in moving]).max(axis=0) for name in ('vel', 'angVel'))
 	scale = max(velocity[0], velocity[1], spin[2] * size, float(gravity) * float(O.dt))
