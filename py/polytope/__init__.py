@@ -41,8 +41,8 @@ from .breakage.byStress import breakGrains
 from .breakage.splitting import split
 from .check import check
 from .dynamics.base import baseMotion
-from .dynamics.history import velocityHistory
 from .dynamics.quiet import quietBoundary
+from .dynamics.velocityHistory import velocityHistory
 from .engines import engines
 from .extensions import extensions, load
 from .loading.oedometer import oedometer
@@ -64,12 +64,12 @@ from .rest.settling import settle
 from .rest.unrest import NotAtRest
 from .rock.factorOfSafety import FactorOfSafety, factorOfSafety
 from .rock.files import readJoints
-from .rock.history import history
 from .rock.joint import Joint
 from .rock.jointedRock import JointedRock, JointSet, jointedRock
 from .rock.keyBlocks import KeyBlock, keyBlocks
 from .rock.limit.analysis import LimitAnalysis, limitAnalysis
 from .rock.lining import Adhesion, lining
+from .rock.pointHistories import history
 from .rock.regions import meshRegion, regionWithout
 from .rock.report import RockReport, rockReport, scanLine, stereonet
 from .rock.stress.excavation import excavate

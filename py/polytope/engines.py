@@ -39,7 +39,7 @@ from .bonding.bonds import bonds, removedBonds
 from .check import checkOf
 from .check.scene import SceneToCheck
 from .pictures.films import filmEngines
-from .rock.history import histories
+from .rock.pointHistories import histories
 from .scene.ownFunctors import ownBounds, ownContacts, ownLaws
 from .scene.radii import inscribedRadius
 from .scene.relaxing import relaxing

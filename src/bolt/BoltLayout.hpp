@@ -19,8 +19,8 @@ struct BoltPassage {
 std::optional<BoltPassage> passageThrough(
         const PlacedShape& body, int block, const Vector3& head, const Vector3& direction, const Real& length);
 
-/// The passages in their order from the head. Where two overlap, each gets half of what they share; what is shorter than `least`, or lies within another one,
-/// is left out; neighbours of one block are one.
+/// The passages in their order from the head. Where two overlap, each gets half of what they share; what is shorter than `least`, or lies
+/// within another one, is left out; neighbours of one block are one.
 std::vector<BoltPassage> inOrder(std::vector<BoltPassage> passages, const Real& least);
 
 struct BoltDesign {
@@ -48,7 +48,8 @@ struct BoltLayout {
 	Real                      firstStation = 0; ///< its place; element e lies between stations e and e + 1
 };
 
-/// The chain of a bolt with these passages; while all is elastic it is as stiff as steel in grout that is not divided into elements. One block alone, or none, has no crossings.
+/// The chain of a bolt with these passages; while all is elastic it is as stiff as steel in grout that is not divided into elements. One
+/// block alone, or none, has no crossings.
 BoltLayout layOut(const std::vector<BoltPassage>& passages, const BoltDesign& design, const Real& length);
 
 } // namespace polytope

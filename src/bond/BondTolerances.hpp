@@ -20,8 +20,8 @@ constexpr Real touchingFaces = 1e-6;
 /// × the smaller inscribed radius: deeper in each other, two bodies have no common face. Overlaps of DEM are a hundredth at the most.
 constexpr Real deepestOfFaces = 0.1;
 
-/// Largest angle between two faces [rad] that a joint takes for faces lying on each other, and the default of polytope.bond(): half a degree, what rounding and
-/// settling leave between faces meant to touch, at ordinary stiffness.
+/// Largest angle between two faces [rad] that a joint takes for faces lying on each other, and the default of polytope.bond(): half a
+/// degree, what rounding and settling leave between faces meant to touch, at ordinary stiffness.
 constexpr Real facingOfJoints = 0.01;
 
 } // namespace polytope::tolerance

@@ -79,12 +79,21 @@ namespace {
 
 } // namespace
 
+Real touchingGap(const ConvexShape& first, const ConvexShape& second)
+{
+	return tolerance::touchingFaces * std::min(first.boundingRadius(), second.boundingRadius());
+}
+
+Real deepestOverlap(const ConvexShape& first, const ConvexShape& second)
+{
+	return tolerance::deepestOfFaces * std::min(first.inscribedRadius(), second.inscribedRadius());
+}
+
 std::vector<CommonFace> commonFaces(const PlacedShape& first, const PlacedShape& second, const Real& gap, const Real& angle)
 {
-	const Vector3 origin = first.centre; // small numbers wherever the bodies are
-	const auto    faces1 = facesOf(first, origin), faces2 = facesOf(second, origin);
-	const Real    opposite = cos(angle),
-	           deepest     = tolerance::deepestOfFaces * std::min(first.shape.inscribedRadius(), second.shape.inscribedRadius());
+	const Vector3           origin = first.centre; // small numbers wherever the bodies are
+	const auto              faces1 = facesOf(first, origin), faces2 = facesOf(second, origin);
+	const Real              opposite = cos(angle), deepest = deepestOverlap(first.shape, second.shape);
 	std::vector<CommonFace> found;
 	for (const Face& face1 : faces1)
 		for (const Face& face2 : faces2) {

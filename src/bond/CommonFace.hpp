@@ -19,6 +19,12 @@ struct CommonFace {
 	std::vector<Vector2> corners;          ///< (y, z) from the centroid, counter-clockwise about the normal
 };
 
+/// The largest gap between faces of two bodies that are meant to touch [m].
+Real touchingGap(const ConvexShape& first, const ConvexShape& second);
+
+/// The deepest that their faces overlap where they have one in common [m].
+Real deepestOverlap(const ConvexShape& first, const ConvexShape& second);
+
 /// All pairs of faces that look at each other within `angle` [rad] and are not farther apart than `gap` (nor overlap by more than a contact does,
 /// Tolerances.hpp). Polygons: their edges, over the smaller thickness.
 std::vector<CommonFace> commonFaces(const PlacedShape& first, const PlacedShape& second, const Real& gap, const Real& angle);

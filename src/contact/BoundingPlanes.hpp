@@ -24,9 +24,9 @@ POLYTOPE_INLINE void keepLargest(int body, int plane, Real slack, Real leverage,
 	out.leverage[body][place] = leverage;
 }
 
-/// Finds the planes that bound the overlap, at x inside it: with the Hessian H = Σ a_i a_iᵀ/σ_i² of the analytic centre, plane i has the leverage
-/// a_iᵀ H⁻¹ a_i / σ_i² in (0, 1]. The leverages add up to D; a plane that the overlap does not reach has almost zero, and one that cuts off a part of it
-/// has at least about 1/(number of planes there).
+/// Finds the planes that bound the overlap, at x inside it: with the Hessian H = Σ a_i a_iᵀ/σ_i² of the analytic centre, plane i has the
+/// leverage a_iᵀ H⁻¹ a_i / σ_i² in (0, 1]. The leverages add up to D; a plane that the overlap does not reach has almost zero, and one that
+/// cuts off a part of it has at least about 1/(number of planes there).
 template <class R, int D, int W> POLYTOPE_INLINE void boundingPlanes(const PairPlanes<R, D>& planes, const R* x, BoundingPlanes& out)
 {
 	R g[D], h[D][D], lower[D][D], pivot[D];

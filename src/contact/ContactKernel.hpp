@@ -80,8 +80,8 @@ template <class R, int D, int W> POLYTOPE_INLINE bool alignFrame(const PairQuery
 	return true;
 }
 
-/// Contact point, normal, depth and section of the paper's contact (Eqs 10-18) after the linear program, whose point is x. `atOrigin`: the frame's origin
-/// is the last step's point.
+/// Contact point, normal, depth and section of the paper's contact (Eqs 10-18) after the linear program, whose point is x. `atOrigin`: the
+/// frame's origin is the last step's point.
 template <class R, int D, int W>
 POLYTOPE_INLINE void paperContact(const PairQuery<R, D>& q, bool optimal, bool touching, bool atOrigin, StageTimer& timer)
 {

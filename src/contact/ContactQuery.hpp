@@ -8,8 +8,8 @@
 /// the plug-in into the numerical core. Nothing throws, prints or (after a thread's first pair of a size, Ipopt aside) allocates.
 namespace polytope {
 
-/// One pair. What it needs of its arguments is not checked here: Preconditions.hpp does. Any value of the memory is safe: what does not fit the pair is not
-/// used.
+/// One pair. What it needs of its arguments is not checked here: Preconditions.hpp does. Any value of the memory is safe: what does not fit
+/// the pair is not used.
 POLYTOPE_API void contactQuery(
         const PlacedPair& pair, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result);
 

@@ -4,6 +4,7 @@
 #include "contact/ContactOutlineWriter.hpp"
 #include "contact/PairQuery.hpp"
 #include "numbers/Tolerances.hpp"
+#include "shape/RingsOfNumbers.hpp"
 
 #include <cmath>
 
@@ -69,29 +70,19 @@ POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R*
 			most     = maxOf<R>(most, value[k]);
 		}
 		if (!(most > 0)) continue;
-		int kept  = 0;
-		R   lastU = here[2 * count - 2], lastV = here[2 * count - 1], last = value[count - 1];
-		for (int k = 0; k < count; ++k) {
-			const R u = here[2 * k], v = here[2 * k + 1], own = value[k];
-			if ((own > 0) != (last > 0)) {
-				const R t           = last / (last - own);
-				there[2 * kept]     = lastU + t * (u - lastU);
-				there[2 * kept + 1] = lastV + t * (v - lastV);
-				++kept;
-			}
-			if (!(own > 0)) {
-				there[2 * kept]     = u;
-				there[2 * kept + 1] = v;
-				++kept;
-			}
-			lastU = u;
-			lastV = v;
-			last  = own;
-		}
-		R* swap = here;
-		here    = there;
-		there   = swap;
-		count   = kept;
+		const auto corner = [&](int k, R* uv) {
+			uv[0] = here[2 * k];
+			uv[1] = here[2 * k + 1];
+		};
+		const auto put = [&](int k, const R* uv) {
+			there[2 * k]     = uv[0];
+			there[2 * k + 1] = uv[1];
+		};
+		const int kept = keepAbove<R>(count, corner, [&](int k, const R*) { return -value[k]; }, put);
+		R*        swap = here;
+		here           = there;
+		there          = swap;
+		count          = kept;
 	}
 	return polygonSection<R>(here, count, origin, axes);
 }
@@ -119,8 +110,8 @@ POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R*
 	return section;
 }
 
-/// Area (2-D: times the smaller thickness), centroid and, seen from `point` along the contact normal, outline of the section through `origin`, normal to
-/// n, of what the planes bound. `buffer`: room for sectionNumbers().
+/// Area (2-D: times the smaller thickness), centroid and, seen from `point` along the contact normal, outline of the section through
+/// `origin`, normal to n, of what the planes bound. `buffer`: room for sectionNumbers().
 template <class R, int D>
 POLYTOPE_INLINE void contactSection(
         const PairQuery<R, D>& q, const PairPlanes<R, D>& planes, const R* origin, const R* n, const R* point, R* buffer)

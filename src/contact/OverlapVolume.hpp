@@ -334,7 +334,8 @@ private:
 		return vertex;
 	}
 
-	/// Leaves of a loop what is inside, and notes the edges along which it was cut: where it comes in again, the new face runs back to where it had left.
+	/// Leaves of a loop what is inside, and notes the edges along which it was cut: where it comes in again, the new face runs back to where
+	/// it had left.
 	POLYTOPE_INLINE void takeFace(int face)
 	{
 		int*      loop    = loops_.corner + face * room_;

@@ -15,12 +15,13 @@ struct PairDistance {
 /// The bodies have the same dimension and are not two half-spaces. Where several points are nearest, as of parallel
 /// faces, they are a vertex of the faces' nearest part. Nothing throws or allocates.
 ///
-/// The point of the difference of both bodies that is nearest to the origin, by Wolfe's iterations (P. Wolfe 1976, Finding the nearest point in a
-/// polytope, Mathematical Programming 11:128-149) with one vertex of each body as a vertex of the difference. Error: some roundings of the pair's size, of the
-/// normal this over the distance.
+/// The point of the difference of both bodies that is nearest to the origin, by Wolfe's iterations (P. Wolfe 1976, Finding the nearest
+/// point in a polytope, Mathematical Programming 11:128-149) with one vertex of each body as a vertex of the difference. Error: some
+/// roundings of the pair's size, of the normal this over the distance.
 POLYTOPE_API PairDistance pairDistance(const PlacedPair& pair);
 
-/// The distance of the convex hulls of two sets of points in space, points and nearest points in the same axes; zero, without normal and points, where a set is empty.
+/// The distance of the convex hulls of two sets of points in space, points and nearest points in the same axes; zero, without normal and
+/// points, where a set is empty.
 POLYTOPE_API PairDistance pairDistance(const std::vector<Vector3>& points1, const std::vector<Vector3>& points2);
 
 } // namespace polytope

@@ -24,9 +24,9 @@ POLYTOPE_INLINE ProgramLimits<R> programLimits(const PlacedPair& in, const Conta
 	return { tolerance, settings.geometryAcrossGap ? R(padOffset) : -tolerance, 2 * (larger < R(padOffset) ? larger : f.size) };
 }
 
-/// Which pair is asked about and what is asked, how far its linear program and its contact point are, and where memory and answer go. All are
-/// references to variables of contactKernel(), which the compiler keeps in registers as if each stage had been given them one by one; a function that is
-/// not inlined takes a copy, so that their addresses do not leave the others.
+/// Which pair is asked about and what is asked, how far its linear program and its contact point are, and where memory and answer go. All
+/// are references to variables of contactKernel(), which the compiler keeps in registers as if each stage had been given them one by one; a
+/// function that is not inlined takes a copy, so that their addresses do not leave the others.
 template <class R, int D> struct PairQuery {
 	const PlacedPair&       in;
 	const ContactSettings&  settings;

@@ -31,8 +31,8 @@ template <class R, int D> struct PairSurface {
 	POLYTOPE_INLINE R share() const { return !on ? R(1) : sums.pressure > 0 ? on->pressure / sums.pressure : R(0); }
 };
 
-/// Finds the surface from the vertices of the pair's feasible set, whose tight planes are those of the last step or are found anew. False if they do not say
-/// what the surface is.
+/// Finds the surface from the vertices of the pair's feasible set, whose tight planes are those of the last step or are found anew. False
+/// if they do not say what the surface is.
 template <class R, int W, class Spare>
 POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R, 3, W>* near, const int* basis, FeasibleBuffers<R>& set,
         const Spare& spare, PairSurface<R, 3>& surface)
@@ -51,8 +51,8 @@ POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R
 	return true;
 }
 
-/// The contact surface of the planes that matter, with room for a section of all in `spare`. `optimum`: gives the program's, or null where there is none;
-/// it is asked only if the kept vertices do not say what the surface is.
+/// The contact surface of the planes that matter, with room for a section of all in `spare`. `optimum`: gives the program's, or null where
+/// there is none; it is asked only if the kept vertices do not say what the surface is.
 template <class R, int D, int W, class Optimum>
 POLYTOPE_INLINE void findSurface(
         const PairPlanes<R, D>& planes, const Optimum& optimum, ContactWorkspace& workspace, PairSurface<R, D>& surface)

@@ -29,8 +29,9 @@ template <class R, int D, int W> POLYTOPE_INLINE R exitDistance(const PairPlanes
 	return horizontalMin<R, W>(nearest);
 }
 
-/// For a body grown by `grown` (a length by which all its planes were moved out): distance from the point, in the given direction, to the original position of
-/// the plane through which that direction leaves the grown body; negative if that plane lies behind the point. Across a gap the grown body decides which plane
+/// For a body grown by `grown` (a length by which all its planes were moved out): distance from the point, in the given direction, to the
+/// original position of the plane through which that direction leaves the grown body; negative if that plane lies behind the point. Across
+/// a gap the grown body decides which plane
 /// counts: a point slightly outside a plane nearly parallel to n is far from it along n.
 template <class R, int D> POLYTOPE_INLINE R exitOfGrown(const PairPlanes<R, D>& planes, int body, const R* n, R direction, R grown)
 {
@@ -62,8 +63,8 @@ template <class R, int D> POLYTOPE_INLINE R growUntilTouching(PairPlanes<R, D>& 
 	return grown;
 }
 
-/// Minus the distance between the surfaces along n, for bodies that were grown by `grown` and are `apart` from each other (s*), at the point of the planes'
-/// slacks.
+/// Minus the distance between the surfaces along n, for bodies that were grown by `grown` and are `apart` from each other (s*), at the
+/// point of the planes' slacks.
 template <class R, int D> POLYTOPE_INLINE R depthAcrossGap(const PairPlanes<R, D>& planes, const R* n, R grown, R apart, const R* dual)
 {
 	// where the normal does not separate the bodies the chord has no meaning; they are at least s*/|n_λ| apart

@@ -13,9 +13,9 @@ namespace polytope {
 /// A sentence that names the option that is out of range, or nothing.
 POLYTOPE_API std::string faultOf(const ContactOptions& options);
 
-/// A sentence that names the first argument of a query that is not as it must be, or nothing: options as above, weights, and internal planes that the bodies have; both
-/// shapes of one dimension, not both half-spaces; of a half-space a unit normal (to tolerance::orthogonal); rotations that are rotations (tolerance::orthogonal), in 2-D about z; a finite position.
-/// The memory may be any.
+/// A sentence that names the first argument of a query that is not as it must be, or nothing: options as above, weights, and internal
+/// planes that the bodies have; both shapes of one dimension, not both half-spaces; of a half-space a unit normal (to
+/// tolerance::orthogonal); rotations that are rotations (tolerance::orthogonal), in 2-D about z; a finite position. The memory may be any.
 POLYTOPE_API std::string faultOf(const PlacedPair& pair, const ContactSettings& settings);
 
 } // namespace polytope

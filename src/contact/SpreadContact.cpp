@@ -4,6 +4,7 @@
 #include "numbers/PlaneAxes.hpp"
 #include "shape/DistanceTolerances.hpp"
 #include "shape/Rings.hpp"
+#include "shear/ContactOutline.hpp"
 
 #include <algorithm>
 #include <array>
@@ -154,7 +155,7 @@ namespace {
 	void addTriangle(const SpreadPlace& a, const SpreadPlace& b, const SpreadPlace& c, SpreadSums& sums)
 	{
 		const Vector2 u = b.at - a.at, v = c.at - a.at;
-		const Real    area = (u[0] * v[1] - u[1] * v[0]) / 2;
+		const Real    area = cross(u, v) / 2;
 		const auto    add  = [&](const Real& part, const SpreadPlace& place) { sums.add(part * area / 60, place.at, place.h); };
 		for (const SpreadPlace* corner : { &a, &b, &c })
 			add(3, *corner);
@@ -294,10 +295,7 @@ namespace {
 			if (count < 3) places.clear();
 			for (std::size_t k = 0; k < count && !places.empty(); ++k) {
 				const Vector2 from = across(face[k]), way = across(face[(k + 1) % count]) - from;
-				clip(places, buffer, [&](const SpreadPlace& place) {
-					const Vector2 to = place.at - from;
-					return sense * (way[0] * to[1] - way[1] * to[0]);
-				});
+				clip(places, buffer, [&](const SpreadPlace& place) { return sense * cross(way, place.at - from); });
 			}
 		}
 

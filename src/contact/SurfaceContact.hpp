@@ -25,7 +25,8 @@
 /// energy is over the stiffness that the joint has at this depth.
 namespace polytope {
 
-/// Force and moment on body 2 over the stiffness, about the frame's origin, and energy over it; 2-D: for unit thickness where the stiffness is per area.
+/// Force and moment on body 2 over the stiffness, about the frame's origin, and energy over it; 2-D: for unit thickness where the stiffness
+/// is per area.
 template <class R, int D> struct SurfaceLoad {
 	R force[D];
 	R moment[SurfaceSums<R, D>::turns];
@@ -91,8 +92,8 @@ template <class R, int D> POLYTOPE_INLINE bool directionOfForce(const SurfaceLoa
 	return some;
 }
 
-/// How far s* is below zero for bodies that are `apart` (s*) when they are grown for a contact: it is chosen so that it moves with their tilt as s* does for
-/// bodies which overlap as far as these are apart, and not with rounding.
+/// How far s* is below zero for bodies that are `apart` (s*) when they are grown for a contact: it is chosen so that it moves with their
+/// tilt as s* does for bodies which overlap as far as these are apart, and not with rounding.
 template <class R> POLYTOPE_INLINE R skinAcrossGap(R apart, R size)
 {
 	return maxOf<R>(R(tolerance::gapSkin) * size, minOf<R>(apart, R(tolerance::widestSkin) * size));
@@ -130,8 +131,8 @@ template <class R, int D> struct SurfaceForce {
 	bool directed; ///< or n is any direction
 };
 
-/// All pieces of a solid have the force's direction: no piece is pressed aside by an edge on its seam. `across`: that of what separates the bodies. `length`:
-/// of the force.
+/// All pieces of a solid have the force's direction: no piece is pressed aside by an edge on its seam. `across`: that of what separates the
+/// bodies. `length`: of the force.
 template <class R, int D>
 POLYTOPE_INLINE void placeForce(const PairQuery<R, D>& q, const PairSurface<R, D>& surface, const SurfaceLoad<R, D>& load, R length,
         bool across, SurfaceForce<R, D>& force)
@@ -224,8 +225,8 @@ POLYTOPE_INLINE void outlineOfSurface(const PairQuery<R, 3>& q, const PairSurfac
 	q.out.sectionCentroid = q.out.point;
 }
 
-/// Finds the contact by its surface after the linear program, whose point is x. `across`: the pair does not touch, and its bodies were grown by `grown` until
-/// it does.
+/// Finds the contact by its surface after the linear program, whose point is x. `across`: the pair does not touch, and its bodies were
+/// grown by `grown` until it does.
 template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQuery<R, D>& q, bool optimal, bool across, R grown)
 {
 	const ContactSettings& settings = q.settings;

@@ -8,9 +8,10 @@
 #include "contact/SlidingDepth.hpp"
 #include "contact/StartBasis.hpp"
 
-/// The contact surface of a body on one of several flush pieces: that of the solid which they make, without the faces between them, and the part of it on
-/// this piece. The solid is taken to be the piece with each such face moved out to where the solid ends beyond it. Where the pieces are no such solid, as about a corner that points
-/// inwards, it differs from them beside the piece alone: the pressure on the piece, and so its part of the force, are right all the same.
+/// The contact surface of a body on one of several flush pieces: that of the solid which they make, without the faces between them, and the
+/// part of it on this piece. The solid is taken to be the piece with each such face moved out to where the solid ends beyond it. Where the
+/// pieces are no such solid, as about a corner that points inwards, it differs from them beside the piece alone: the pressure on the piece,
+/// and so its part of the force, are right all the same.
 namespace polytope {
 
 /// Planes of internal faces, moved to where the solid ends beyond them until they are restored.
@@ -46,8 +47,8 @@ private:
 	R                 offset_[2 * BoundingPlanes::most];
 };
 
-/// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: twice the depth at which the body
-/// still slides, since beside the seam the piece's own part of the overlap is less deep.
+/// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: twice the
+/// depth at which the body still slides, since beside the seam the piece's own part of the overlap is less deep.
 template <class R, int D>
 POLYTOPE_APART R internalDepth(const PlacedPair& in, const ContactFrame<R, D>& f, const InternalPlanes& internal, const R* n)
 {
@@ -73,8 +74,8 @@ template <class R, int D, int W> POLYTOPE_APART void boundingPlanesOf(PairQuery<
 	bounding.point = worldPoint<R, D>(q.in, q.frame, toBody<R, D>(q.frame, q.frame.home, centre));
 }
 
-/// Length that bounds the overlap with the extended piece: it lies within the other body, and within the piece enlarged about its centre until it reaches as far as the
-/// solid, for planes that are moved out by no more than that factor bound no more.
+/// Length that bounds the overlap with the extended piece: it lies within the other body, and within the piece enlarged about its centre
+/// until it reaches as far as the solid, for planes that are moved out by no more than that factor bound no more.
 template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PlacedPair& in, const InternalPlanes& internal)
 {
 	R size = R(padOffset);
@@ -90,8 +91,8 @@ template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PlacedPair& in, const I
 	return size;
 }
 
-/// The optimum of the program of the extended piece, from the ball of the body that has no internal face. `size`: that of a body in which the overlap lies.
-/// False where it has no optimum to find a surface from.
+/// The optimum of the program of the extended piece, from the ball of the body that has no internal face. `size`: that of a body in which
+/// the overlap lies. False where it has no optimum to find a surface from.
 template <class R, int D, int W> POLYTOPE_APART bool programOnPieces(PairQuery<R, D> q, R size, LpBasis<R, D>& optimum)
 {
 	const int ball = q.settings.internal->count[0] > 0 ? 1 : 0;

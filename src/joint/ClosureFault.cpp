@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Whether pressure, tangent and energy of a law belong together. A law that somebody wrote down wrong would give forces whose energy is not accounted for, or time
-// steps that are too large, and nothing would say so.
+// Whether pressure, tangent and energy of a law belong together. A law that somebody wrote down wrong would give forces whose energy is not
+// accounted for, or time steps that are too large, and nothing would say so.
 #include "joint/ClosureLaw.hpp"
 
 #include "joint/JointTolerances.hpp"

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-/// Normal laws of joints that stiffen as they close. All is over the joint's stiffness k [Pa/m]: σ/k is a length, that of the linear spring with the same
-/// pressure. Reversible: loading and unloading follow the same curve. In tension each is the linear spring. Besides these two a program has laws of its own.
+/// Normal laws of joints that stiffen as they close. All is over the joint's stiffness k [Pa/m]: σ/k is a length, that of the linear spring
+/// with the same pressure. Reversible: loading and unloading follow the same curve. In tension each is the linear spring. Besides these two
+/// a program has laws of its own.
 ///
 /// Hyperbola (Bandis, Lumsden & Barton 1983, Int. J. Rock Mech. Min. Sci. 20:249-268), k the initial stiffness, δₘ the maximum closure [m]:
 ///
@@ -19,9 +20,9 @@
 ///     dσ/dδ = k (σ/σ₀)ᵉ,         so σ = σ₀ ((1 − e) δ k/σ₀)^(1/(1 − e)).
 namespace polytope {
 
-/// A law of a program's own, for closures δ > 0: functions of δ and of two parameters p, q. It must outlive all contacts that have it, as a static object of a library
-/// does; its name, which archives have in its place, is known from then on, so it is made once. Nothing is looked at then: ClosureLaw::own() refuses a name that
-/// another law has, ClosureLaw::fault() says whether the functions belong together.
+/// A law of a program's own, for closures δ > 0: functions of δ and of two parameters p, q. It must outlive all contacts that have it, as a
+/// static object of a library does; its name, which archives have in its place, is known from then on, so it is made once. Nothing is
+/// looked at then: ClosureLaw::own() refuses a name that another law has, ClosureLaw::fault() says whether the functions belong together.
 struct POLYTOPE_API NormalLaw {
 	using Function = Real (*)(Real closure, Real p, Real q);
 
@@ -70,9 +71,10 @@ public:
 	Real initialTangent() const;       ///< of a joint that has not closed yet [-]: above 1 it is stiffer there than k
 	Real closure(Real pressure) const; ///< that gives σ/k [m]
 
-	/// Whether these belong together: a sentence that names the law and what does not, or an empty one. At closures from tolerance::leastClosure on, by
-	/// tolerance::closureOctaves octaves, all are finite, and the pressure rises from 0; in each octave it grows by the integral of the tangent, and the energy by that of the
-	/// pressure, to tolerance::closureAgreement. It takes a tenth of a millisecond: for where a law is given, not for each contact.
+	/// Whether these belong together: a sentence that names the law and what does not, or an empty one. At closures from
+	/// tolerance::leastClosure on, by tolerance::closureOctaves octaves, all are finite, and the pressure rises from 0; in each octave it
+	/// grows by the integral of the tangent, and the energy by that of the pressure, to tolerance::closureAgreement. It takes a tenth of a
+	/// millisecond: for where a law is given, not for each contact.
 	std::string fault() const;
 
 private:

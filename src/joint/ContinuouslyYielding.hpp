@@ -9,8 +9,8 @@
 ///     Δτ = F k_s Δu,     F = (1 − τ/τₘ)/(1 − r),     τₘ = σ tan φₘ,     k_s = k (σ/σ₀)ᵉ
 ///     Δuₚ = (1 − F) |Δu|,     Δφₘ = −(φₘ − φ) Δuₚ/R,     dilation angle arctan(|τ|/σ) − φ
 ///
-/// with τ the stress against the motion, R the roughness [m], φ the intrinsic friction angle. r is 0 at first, and τ/τₘ where the motion turned back last,
-/// at most tolerance::mostAtReversal: from there F starts at 1 again.
+/// with τ the stress against the motion, R the roughness [m], φ the intrinsic friction angle. r is 0 at first, and τ/τₘ where the motion
+/// turned back last, at most tolerance::mostAtReversal: from there F starts at 1 again.
 namespace polytope {
 
 class ContinuouslyYielding {

@@ -141,16 +141,17 @@ constexpr int  ipoptRounds = 20;
 /// bodies of ten thousand faces has some hundred where they touch; one with more is taken as a contact at one point.
 constexpr int overlapFaces = 512;
 
-/// × reach of the pair: distances below this are rounding of the vertices' places, and the bodies touch; and steps of the distance's iterations that gain
-/// less than this end them (PairDistance.hpp). Places of vertices are rounded by 4 × rounding.
+/// × reach of the pair: distances below this are rounding of the vertices' places, and the bodies touch; and steps of the distance's
+/// iterations that gain less than this end them (PairDistance.hpp). Places of vertices are rounded by 4 × rounding.
 constexpr Real distance = 16 * rounding;
 
-/// Steps of those iterations, at the most, per vertex and at least. A step that gains enters a vertex that no earlier set of vertices had, so that they end by
-/// themselves; they have taken less than one per vertex.
+/// Steps of those iterations, at the most, per vertex and at least. A step that gains enters a vertex that no earlier set of vertices had,
+/// so that they end by themselves; they have taken less than one per vertex.
 constexpr int distanceSteps = 4, distanceStepsAtLeast = 64;
 
-/// Rotation matrices, and unit normals, that are given: how far products of their columns, or the normal's square, may be from those of unit vectors (Preconditions.hpp). Orientations
-/// that an integrator turns and normalises stay within some roundings; what is farther off is a mistake.
+/// Rotation matrices, and unit normals, that are given: how far products of their columns, or the normal's square, may be from those of
+/// unit vectors (Preconditions.hpp). Orientations that an integrator turns and normalises stay within some roundings; what is farther off
+/// is a mistake.
 constexpr double orthogonal = 1e-6;
 
 /// Planes up to which sorting by insertion is faster than std::sort.
@@ -173,8 +174,8 @@ constexpr Real interiorStep = 0.9;
 /// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
 constexpr Real direction = 64 * rounding;
 
-/// Leverage (BoundingPlanes.hpp) from which on a plane counts as near: up to a thousand of the overlap's extents away. Where an overlap under the edge of an
-/// inclined joint begins, the face above it is that near as soon as its force is a thousandth of the contact's.
+/// Leverage (BoundingPlanes.hpp) from which on a plane counts as near: up to a thousand of the overlap's extents away. Where an overlap
+/// under the edge of an inclined joint begins, the face above it is that near as soon as its force is a thousandth of the contact's.
 constexpr Real nearLeverage = 1e-6;
 
 /// × the larger body's circumradius: faces of two pieces count as one face if one is not higher than this, or than the
@@ -184,8 +185,8 @@ constexpr Real flush = 1e-9;
 /// × largest coordinate of two bodies: what rounding of their places and of their planes there leaves of an overlap where they lie flush.
 constexpr Real flushPlaces = 8 * rounding;
 
-/// × the inscribed radius of the body that lies on a piece: where the overlap is deeper below a face of the piece, it does not slide on this face. Overlaps
-/// of DEM are a hundredth at the most. The piece may be thin.
+/// × the inscribed radius of the body that lies on a piece: where the overlap is deeper below a face of the piece, it does not slide on
+/// this face. Overlaps of DEM are a hundredth at the most. The piece may be thin.
 constexpr Real thinContact = 0.1;
 
 /// One minus the cosine between normals of one body that count as one direction.
@@ -219,8 +220,8 @@ constexpr double cellRoom = 1 + powerOfTwo(-10);
 /// into overlap, so that its point is an analytic centre that continues the touching one's.
 constexpr Real gapSkin = 1e-6;
 
-/// × size: largest length by which bodies are grown for a contact surface; otherwise they are grown by their distance. For joints that dilation holds open
-/// that is more than enough.
+/// × size: largest length by which bodies are grown for a contact surface; otherwise they are grown by their distance. For joints that
+/// dilation holds open that is more than enough.
 constexpr Real widestSkin = 0.1;
 
 } // namespace polytope::tolerance

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A plane of one of the two bodies of a pair as one number, 2 × plane + body: how memories, results and saved contacts name planes. Rows are those of
-/// PairPlanes, body 2's behind the `first` of body 1.
+/// A plane of one of the two bodies of a pair as one number, 2 × plane + body: how memories, results and saved contacts name planes. Rows
+/// are those of PairPlanes, body 2's behind the `first` of body 1.
 namespace polytope {
 
 constexpr int planeCode(int body, int plane) { return 2 * plane + body; }

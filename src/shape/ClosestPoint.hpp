@@ -22,12 +22,12 @@ struct ClosestOnSegment {
 	ClosestPoint nearest; ///< of that place
 };
 
-/// Where a segment is nearest to a shape, or deepest in it; for one that lies along a face, the middle of where it is nearest, to tolerance::alongSegment. The
-/// distance along it is convex, so that thirds and halves find it. \param way from its start to its end
+/// Where a segment is nearest to a shape, or deepest in it; for one that lies along a face, the middle of where it is nearest, to
+/// tolerance::alongSegment. The distance along it is convex, so that thirds and halves find it. \param way from its start to its end
 POLYTOPE_API ClosestOnSegment closestOnSegment(const ConvexShape& shape, const Vector3& start, const Vector3& way);
 
-/// Where two segments are nearest to each other, each place 0 to 1 (Ericson, section 5.1.9); for parallel ones, in the middle of where they lie beside each
-/// other. A segment of no length is a point.
+/// Where two segments are nearest to each other, each place 0 to 1 (Ericson, section 5.1.9); for parallel ones, in the middle of where they
+/// lie beside each other. A segment of no length is a point.
 POLYTOPE_API Vector2 closestOnSegments(const Vector3& start1, const Vector3& way1, const Vector3& start2, const Vector3& way2);
 
 } // namespace polytope

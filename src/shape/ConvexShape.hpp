@@ -33,8 +33,8 @@ public:
 	/// The shared instance of this shape with another corner radius, on which nothing else depends.
 	std::shared_ptr<const ConvexShape> withCornerRadius(const Real& radius) const;
 
-	/// The half-space normal·x ≤ 0 alone (an infinite wall): no vertices, no volume, infinite radii. It can meet a bounded
-	/// shape, not another half-space. Its gradient is its own normal at any depth. The normal's length is a precondition of queries (contact/Preconditions.hpp).
+	/// The half-space normal·x ≤ 0 alone (an infinite wall): no vertices, no volume, infinite radii. It can meet a bounded shape, not another
+	/// half-space. Its gradient is its own normal at any depth. The normal's length is a precondition of queries (contact/Preconditions.hpp).
 	static std::shared_ptr<const ConvexShape> halfSpace(const Vector3& unitNormal, int dimension);
 
 	int  dimension() const { return planes_.dimension; }

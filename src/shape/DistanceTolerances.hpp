@@ -4,24 +4,27 @@
 /// Thresholds of distances from segments, as numbers/Tolerances.hpp has those of the contact path: meaning, scale, reason.
 namespace polytope::tolerance {
 
-/// × the segment's length: how much farther than the nearest a place of a segment that lies along a face may be and still count as near. The place found is the
-/// middle of those: a beam on a face that rounding tilts does not jump to one of its ends. Beyond the face's edge the distance grows with the square, so that
-/// the place is off by up to a millionth.
+/// × the segment's length: how much farther than the nearest a place of a segment that lies along a face may be and still count as near.
+/// The place found is the middle of those: a beam on a face that rounding tilts does not jump to one of its ends. Beyond the face's edge
+/// the distance grows with the square, so that the place is off by up to a millionth.
 constexpr double alongSegment = 1e-12;
 
 /// Thirds, and halves, by which that place is found: the last is 3e-11 of the segment.
 constexpr int segmentSteps = 60;
 
-/// Square of the sine of the angle below which two segments are parallel: their nearest places are then the middle of where they lie beside each other.
+/// Square of the sine of the angle below which two segments are parallel: their nearest places are then the middle of where they lie beside
+/// each other.
 constexpr double parallelSegments = 1e-12;
 
-/// Sine of the angle from which on two faces, an edge and a face, or two edges of bodies with margins count as not parallel: their force then acts at the nearest points
-/// (contact/SpreadContact.hpp). A face that lies on another one parts from it on one side at a tilt of about the overlap over its width, a hundredth at the most; the
-/// angle is ten times that, and less than that between neighbouring faces of most polyhedra.
+/// Sine of the angle from which on two faces, an edge and a face, or two edges of bodies with margins count as not parallel: their force
+/// then acts at the nearest points (contact/SpreadContact.hpp). A face that lies on another one parts from it on one side at a tilt of
+/// about the overlap over its width, a hundredth at the most; the angle is ten times that, and less than that between neighbouring faces of
+/// most polyhedra.
 constexpr double parallelFeatures = 0.1;
 
-/// Sides of the polygon around the section of a body with a margin (contact/RoundedSection.hpp), a multiple of four. Shares of pieces are parts of its area, so they add up to one
-/// with any number. With 16 it goes up to 2 % beyond a disc's rim: no farther than the overlap, whose rim is 41 % wider than that of the section half as deep.
+/// Sides of the polygon around the section of a body with a margin (contact/RoundedSection.hpp), a multiple of four. Shares of pieces are
+/// parts of its area, so they add up to one with any number. With 16 it goes up to 2 % beyond a disc's rim: no farther than the overlap,
+/// whose rim is 41 % wider than that of the section half as deep.
 constexpr int sectionDirections = 16;
 
 /// Halvings of the vertices between two of those sides at which the core's own sides are found: more than any face has in a sixteenth of a turn.
@@ -30,8 +33,8 @@ constexpr int sectionSides = 6;
 /// Halvings of the angle to one place of it, at the most: then it is known to a rounding. Most places take as many as separate two vertices, a few.
 constexpr int sectionSteps = 50;
 
-/// × the depth of two cores in each other: as far as one is moved along the contact's normal until they are apart, and the way back is known. The depth is a mean over the overlap, of a
-/// corner a third of what leads out of it.
+/// × the depth of two cores in each other: as far as one is moved along the contact's normal until they are apart, and the way back is
+/// known. The depth is a mean over the overlap, of a corner a third of what leads out of it.
 constexpr double farthestOut = 16;
 
 } // namespace polytope::tolerance

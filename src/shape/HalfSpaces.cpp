@@ -97,6 +97,16 @@ HalfSpaces withoutDuplicates(const HalfSpaces& unit)
 	return kept;
 }
 
+HalfSpaces cuboid(const Vector3& half)
+{
+	HalfSpaces planes;
+	forPlanesOfCuboid(half, [&](int axis, int sign, const Real& offset) {
+		planes.normals.push_back(sign * Vector3::Unit(axis));
+		planes.offsets.push_back(offset);
+	});
+	return planes;
+}
+
 HalfSpaces moved(const HalfSpaces& set, const Matrix3& rotation, const Vector3& translation)
 {
 	HalfSpaces result = set;

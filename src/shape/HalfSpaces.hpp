@@ -29,11 +29,22 @@ struct HalfSpaces {
 /// normal that leaves the xy plane, a dimension other than 2 or 3.
 POLYTOPE_API HalfSpaces normalised(const HalfSpaces& input);
 
-/// The set without planes that repeat another one (same normal and offset to rounding; parallel planes that differ in offset are both kept: the looser is
-/// redundant, not duplicate). Order of first appearance kept.
+/// The set without planes that repeat another one (same normal and offset to rounding; parallel planes that differ in offset are both kept:
+/// the looser is redundant, not duplicate). Order of first appearance kept.
 POLYTOPE_API HalfSpaces withoutDuplicates(const HalfSpaces& unit);
 
 /// The set moved by the rigid motion x ↦ rotation·x + translation.
 POLYTOPE_API HalfSpaces moved(const HalfSpaces& set, const Matrix3& rotation, const Vector3& translation);
+
+/// Calls visit(axis, sign, half-length) for the six half-spaces of a cuboid about the origin: x, −x, y, −y, z, −z.
+template <class Visit> void forPlanesOfCuboid(const Vector3& half, const Visit& visit)
+{
+	for (int axis = 0; axis < 3; ++axis)
+		for (int sign = 1; sign >= -1; sign -= 2)
+			visit(axis, sign, half[axis]);
+}
+
+/// They, in that order.
+POLYTOPE_API HalfSpaces cuboid(const Vector3& half);
 
 } // namespace polytope

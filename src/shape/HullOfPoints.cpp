@@ -51,12 +51,10 @@ namespace {
 
 	UnitPoints atUnitSize(const std::vector<Vector3>& points, int dimension)
 	{
-		Vector3 low = points.front(), high = points.front();
-		for (const Vector3& p : points) {
-			low  = low.cwiseMin(p);
-			high = high.cwiseMax(p);
-		}
-		const Vector3 span    = high - low;
+		Eigen::AlignedBox<Real, 3> box(points.front());
+		for (const Vector3& p : points)
+			box.extend(p);
+		const Vector3 low = box.min(), high = box.max(), span = box.sizes();
 		const int     used    = dimension; // in 2-D the extent is that of x and y
 		const Real    largest = span.head(used).maxCoeff();
 		if (!(largest > 0)) refuseFlat(dimension);

@@ -28,12 +28,10 @@ namespace {
 
 	Real boxVolume(const Points& points)
 	{
-		Vector3 low = points.front(), high = points.front();
-		for (const Vector3& p : points) {
-			low  = low.cwiseMin(p);
-			high = high.cwiseMax(p);
-		}
-		return (high - low).prod();
+		Eigen::AlignedBox<Real, 3> box(points.front());
+		for (const Vector3& p : points)
+			box.extend(p);
+		return box.sizes().prod();
 	}
 
 	/// Rotation whose columns are the directions in which the points extend most and least.

@@ -9,8 +9,8 @@
 /// Plane convex polygons as lists of their corners in turn.
 namespace polytope {
 
-/// What of a convex ring lies where `height`, a linear function of the place, is not negative. `kept` takes the corners, after those that are in it. A corner is a
-/// point, or what else is linear along a side: with a sum, a difference and a multiple.
+/// What of a convex ring lies where `height`, a linear function of the place, is not negative. `kept` takes the corners, after those that
+/// are in it. A corner is a point, or what else is linear along a side: with a sum, a difference and a multiple.
 template <class Ring, class Height> void keepAbove(const Ring& ring, const Height& height, Ring& kept)
 {
 	for (std::size_t k = 0, count = ring.size(); k < count; ++k) {

@@ -103,7 +103,8 @@ namespace {
 		return atan2(a.cross(b).norm(), a.dot(b));
 	}
 
-	/// Sectors of the ball: solid angles are what the faces' angles lack of a full turn (Gauss and Bonnet), ∫ w dΩ is half the sum over the sector's sides.
+	/// Sectors of the ball: solid angles are what the faces' angles lack of a full turn (Gauss and Bonnet), ∫ w dΩ is half the sum over the
+	/// sector's sides.
 	void addBall(SolidMoments& sum, const Polyhedron& core, const Neighbours& of, const Real& r)
 	{
 		const Real           pi = acos(Real(-1));

@@ -46,7 +46,8 @@ namespace {
 		        [&](const Vector3& corner) { return abs(side.offset - side.normal.dot(corner)) <= room; });
 	}
 
-	/// Pressure of one piece on the polygon in `face`; all in the body's frame. A face where two pieces meet has the pressure of the one on the body's side.
+	/// Pressure of one piece on the polygon in `face`; all in the body's frame. A face where two pieces meet has the pressure of the one on
+	/// the body's side.
 	void addPressed(const PressurePiece& piece, const Vector3& outward, const Real& room, ClippedFace& face, WaterLoad& sum)
 	{
 		keepWhere(piece.value, piece.gradient, face);

@@ -37,10 +37,10 @@ struct ClippedFace {
 	void                 holdFaceOf(std::size_t vertices);
 };
 
-/// The load that these pieces put on the faces of a body; the pieces' points are given from the same origin as the body's centre. Each face is clipped by the
-/// sides and by p = 0, then its triangles are integrated exactly: ∫ p dA = A (p₁ + p₂ + p₃)/3, ∫ p x dA = A ((Σ p)(Σ x) + Σ pᵢ xᵢ)/12. The load of a polygon
-/// is that on its edges over its thickness.
-/// `wet`: planes whose faces have water on them, ascending; null: all.
+/// The load that these pieces put on the faces of a body; the pieces' points are given from the same origin as the body's centre. Each face
+/// is clipped by the sides and by p = 0, then its triangles are integrated exactly: ∫ p dA = A (p₁ + p₂ + p₃)/3, ∫ p x dA = A ((Σ p)(Σ x) +
+/// Σ pᵢ xᵢ)/12. The load of a polygon is that on its edges over its thickness. `wet`: planes whose faces have water on them, ascending;
+/// null: all.
 WaterLoad waterLoad(const PlacedShape& body, const std::vector<PressurePiece>& pieces, const std::vector<int>* wet, ClippedFace& memory);
 
 } // namespace polytope

@@ -6,10 +6,10 @@
 
 /// The memory of a bed of shear springs whose area grows and shrinks.
 ///
-/// Springs that join a growing area are unstrained: the force is unchanged. Springs that leave a shrinking one take their force with them (Elata & Berryman
-/// 1996, Mechanics of Materials 24:229-240, for contacts of spheres). Which leave is what decides whether a load cycle lets a body creep: those that
-/// came last are at the rim and leave first, almost unstrained, while the core keeps its force. A bed that has one displacement for all of
-/// its springs loses force in each cycle, and the body creeps for ever.
+/// Springs that join a growing area are unstrained: the force is unchanged. Springs that leave a shrinking one take their force with them
+/// (Elata & Berryman 1996, Mechanics of Materials 24:229-240, for contacts of spheres). Which leave is what decides whether a load cycle
+/// lets a body creep: those that came last are at the rim and leave first, almost unstrained, while the core keeps its force. A bed that
+/// has one displacement for all of its springs loses force in each cycle, and the body creeps for ever.
 ///
 /// For this reason the bed is a stack of layers, each of the springs that came at about the same time, with the core first. Motion strains all layers alike.
 /// Where there is no room for one more layer, the two neighbours that differ least become one with their mean displacement, which loses ½ k a₁a₂/(a₁ + a₂) |e₁

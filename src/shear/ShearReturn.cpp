@@ -34,7 +34,8 @@ namespace {
 		return Vector3(load[0] * radius * radius, load[1] * radius * radius, load[2]);
 	}
 
-	/// Whether the load is a mean of a point of the limit surface and of one that ShearStrength::surelyHolds() knows to be within: the surface is convex.
+	/// Whether the load is a mean of a point of the limit surface and of one that ShearStrength::surelyHolds() knows to be within: the surface
+	/// is convex.
 	bool holdsBeside(const ShearStrength& strength, const Vector3& onSurface, const Vector3& load)
 	{
 		const auto holds = [&](Real share) {
@@ -44,8 +45,8 @@ namespace {
 		return holds(load.head<2>().dot(onSurface.head<2>()) / onSurface.head<2>().squaredNorm()) || holds(load[2] / onSurface[2]);
 	}
 
-	/// Looks for a motion in which the load does more work than the strength takes, and returns whether there is one; if not, the load is within the limit
-	/// surface.
+	/// Looks for a motion in which the load does more work than the strength takes, and returns whether there is one; if not, the load is
+	/// within the limit surface.
 	///
 	/// The motion sought is the one that takes the least work of the strength, among all in which the load does the same work: it minimises a convex
 	/// function of two variables.

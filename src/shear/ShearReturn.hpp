@@ -6,17 +6,18 @@
 /// Elastic bed and strength together: what is left of a load that is beyond the limit surface, and the slip by which the rest is lost.
 namespace polytope {
 
-/// Stiffness of the bed for motions of a point, (s₁, s₂, φ): k in each direction at the area's centroid, `offset` from the point, and k ρ² about the normal
-/// there, ρ² the mean square of the distance from the centroid.
+/// Stiffness of the bed for motions of a point, (s₁, s₂, φ): k in each direction at the area's centroid, `offset` from the point, and k ρ²
+/// about the normal there, ρ² the mean square of the distance from the centroid.
 Matrix3 bedStiffness(Real stiffness, Real gyrationSquared, const Vector2& offset);
 
 /// Brings a load (force, and moment about the strength's centre) back to the limit surface, and returns the slip; zero where the load is within it.
 ///
-/// The slip is the minimum of the convex D(x) − load·x + ½ x·K x, D of ShearStrength.hpp: there resistance(x) = load − K x, which is the load that stays
-/// (backward Euler for perfect plasticity with an associated flow, Simo & Hughes 1998, "Computational inelasticity", chapter 3). It
-/// always lies on the limit surface, also where the iteration ends early.
+/// The slip is the minimum of the convex D(x) − load·x + ½ x·K x, D of ShearStrength.hpp: there resistance(x) = load − K x, which is the
+/// load that stays (backward Euler for perfect plasticity with an associated flow, Simo & Hughes 1998, "Computational inelasticity",
+/// chapter 3). It always lies on the limit surface, also where the iteration ends early.
 ///
-/// \param likely a slip from which the search begins, such as the last step's, any length; it makes the answer cheaper and changes it by rounding alone. Zero
+/// \param likely a slip from which the search begins, such as the last step's, any length; it makes the answer cheaper and changes it by
+/// rounding alone. Zero
 ///               if there is none
 Vector3 returnToStrength(
         const ShearStrength& strength, const Matrix3& stiffness, Vector3& load, const Vector3& likely = Vector3(Vector3::Zero()));

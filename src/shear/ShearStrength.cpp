@@ -175,8 +175,8 @@ void ShearStrength::addEdge(const Vector2& from, const Vector2& to, Real atPole,
 	}
 }
 
-/// The outline's distance from the pole over its half width. Where that is large the triangles of addEdge() cancel: each is larger than the outline by as
-/// much, and τ at the pole larger than on the outline by that once more.
+/// The outline's distance from the pole over its half width. Where that is large the triangles of addEdge() cancel: each is larger than the
+/// outline by as much, and τ at the pole larger than on the outline by that once more.
 Real ShearStrength::narrownessFrom(const Vector2& pole) const
 {
 	const Vector2 across = left(axis_);
@@ -241,8 +241,8 @@ void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vecto
 	}
 }
 
-/// The sums of (1) at points in the triangles between the centre and the edges, several triangles at once: the direction of slip changes little over the
-/// outline. So little that it is a polynomial of low degree; `precise`: of one of higher degree.
+/// The sums of (1) at points in the triangles between the centre and the edges, several triangles at once: the direction of slip changes
+/// little over the outline. So little that it is a polynomial of low degree; `precise`: of one of higher degree.
 Vector3 ShearStrength::byPoints(const Vector3& slip, bool precise, Matrix3* slope) const
 {
 	constexpr int width          = isVector<Real, 4> ? 4 : 1;

@@ -10,14 +10,14 @@
 ///
 ///     D(s, φ) = ∫ τ |s + φ n × x| dA,       force and moment: its gradient,                                                     (1)
 ///
-/// and all pairs of force and moment that τ can balance are the convex set of which D is the support function, the limit surface (Goyal, Ruina,
-/// Papadopoulos 1991, "Planar sliding with dry friction", Wear 143:307-352). τ is linear over the outline, as the pressure of an elastic foundation under
-/// a rigid face is: it is given by its resultant and the point through which that acts.
+/// and all pairs of force and moment that τ can balance are the convex set of which D is the support function, the limit surface (Goyal,
+/// Ruina, Papadopoulos 1991, "Planar sliding with dry friction", Wear 143:307-352). τ is linear over the outline, as the pressure of an
+/// elastic foundation under a rigid face is: it is given by its resultant and the point through which that acts.
 ///
-/// With the centre of rotation c the integrals are sums over edges. An edge at the distance h from c, its points h m + y e from there with y from y₁ to y₂,
-/// ρ² = h² + y², gives the triangle between it and c; along a ray from c the direction of slip is constant and τ linear, so what is left are
-/// integrals of ρ, 1/ρ, 1/ρ³ times powers of y: no quadrature. Where the outline is narrow beside its distance from c these
-/// triangles cancel; lines along it take their place.
+/// With the centre of rotation c the integrals are sums over edges. An edge at the distance h from c, its points h m + y e from there with
+/// y from y₁ to y₂, ρ² = h² + y², gives the triangle between it and c; along a ray from c the direction of slip is constant and τ linear,
+/// so what is left are integrals of ρ, 1/ρ, 1/ρ³ times powers of y: no quadrature. Where the outline is narrow beside its distance from c
+/// these triangles cancel; lines along it take their place.
 namespace polytope {
 
 struct GaussLegendre;

@@ -17,10 +17,10 @@
 /// the same least slack: −∂V/∂(centre 2) = ∫ p n dS, −∂W/∂(centre 2) = ∫ ½ p² n dS, moments likewise. The surface consists of convex pieces (i of
 /// body 1, j of body 2). Both bodies have the same force to rounding, since it is one sum.
 ///
-/// The pieces are found from one to the next: where at an edge plane k is as near as i and j, the surface goes on between two of the three. It begins
-/// at the optimum's basis, whose planes all have a cell. The overlap's own faces (between a cell and s = 0) are walked too, for the surface may have
-/// parts apart from each other, one body passing through the other; each has an edge on the overlap's surface. And the faces close the space of body 1's
-/// cells, so that the sum of area vectors tells if a piece is missing.
+/// The pieces are found from one to the next: where at an edge plane k is as near as i and j, the surface goes on between two of the three.
+/// It begins at the optimum's basis, whose planes all have a cell. The overlap's own faces (between a cell and s = 0) are walked too, for
+/// the surface may have parts apart from each other, one body passing through the other; each has an edge on the overlap's surface. And the
+/// faces close the space of body 1's cells, so that the sum of area vectors tells if a piece is missing.
 ///
 /// Nothing here throws or allocates.
 namespace polytope {
@@ -250,10 +250,10 @@ private:
 	R                           faceArea_   = 0;
 };
 
-/// The contact surface of a pair that overlaps. `basis`: planes of the linear program's optimal basis, in any number; `deepest`: −s*; `size`: the smaller
-/// body's circumradius. The planes' frame has its origin within √2 sizes of the smaller body's centre; it has most digits at its origin, which is best at the
-/// optimum. Offsets of the planes are changed meanwhile. Where planes of both bodies coincide the force is the mean of the energy's derivatives to both sides.
-/// `on`: a piece of a larger solid, or null.
+/// The contact surface of a pair that overlaps. `basis`: planes of the linear program's optimal basis, in any number; `deepest`: −s*;
+/// `size`: the smaller body's circumradius. The planes' frame has its origin within √2 sizes of the smaller body's centre; it has most
+/// digits at its origin, which is best at the optimum. Offsets of the planes are changed meanwhile. Where planes of both bodies coincide
+/// the force is the mean of the energy's derivatives to both sides. `on`: a piece of a larger solid, or null.
 template <class R, int D, int W>
 POLYTOPE_INLINE SurfaceStatus contactSurface(PairPlanes<R, D>& planes, const int* basis, int count, R size, R deepest, SurfaceParts parts,
         const SurfaceBuffers<R, D>& buffers, SurfaceSums<R, D>& sums, SurfaceOnPiece<R, D>* on = nullptr)

@@ -12,8 +12,8 @@ template <class R> struct FeasibleBuffers {
 	                     mostEdges = 2 * mostVertices, mostPieces = 2 * mostVertices;
 	static constexpr int pieceRows = 16;
 
-	/// Whose a plane is: of body 1, of both where planes of both coincide, of body 2, of none that of no pressure. In this order the first of two is on body
-	/// 1's side of a piece between them.
+	/// Whose a plane is: of body 1, of both where planes of both coincide, of body 2, of none that of no pressure. In this order the first of
+	/// two is on body 1's side of a piece between them.
 	enum Owner : std::uint8_t { Body1, Both, Body2, NoBody };
 
 	int planes, vertices, edges;

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-/// One piece of the contact surface, of planes i and j, as a polygon: the vertices of the feasible set at which both are tight, one after the other. It has
-/// what ClippedPiece asks of a SurfaceCut.
+/// One piece of the contact surface, of planes i and j, as a polygon: the vertices of the feasible set at which both are tight, one after
+/// the other. It has what ClippedPiece asks of a SurfaceCut.
 namespace polytope {
 
 template <class R> class FeasiblePolygon {

@@ -8,14 +8,15 @@
 
 /// The set {(x, s): a_i·x + s ≤ d_i, s ≥ 0} of a pair that overlaps, a polytope in four dimensions, by its vertices and edges.
 ///
-/// A vertex has four tight planes, an edge three; the plane of no pressure, s ≥ 0, counts as one. The vertices are found from the linear program's optimum
-/// along the edges, as in the simplex method. In the next step the same planes are mostly tight in the same vertices. Then nothing is looked for: points
-/// at which no plane is violated, and each of whose four edges ends in another of them, are all vertices, for the edges of a polytope
-/// connect all its vertices.
+/// A vertex has four tight planes, an edge three; the plane of no pressure, s ≥ 0, counts as one. The vertices are found from the linear
+/// program's optimum along the edges, as in the simplex method. In the next step the same planes are mostly tight in the same vertices.
+/// Then nothing is looked for: points at which no plane is violated, and each of whose four edges ends in another of them, are all
+/// vertices, for the edges of a polytope connect all its vertices.
 ///
 /// Where more planes meet (regular bodies have the same slack on several planes along a line), offsets that are changed by
-/// tolerance::splitPlanes say which four belong together. The vertices themselves have the planes' true offsets, by which planes of both bodies that lie by each
-/// other are told apart (FlushPlanes.hpp). What all that does not make a simple polytope is left to SurfaceWalk (ContactSurface.hpp).
+/// tolerance::splitPlanes say which four belong together. The vertices themselves have the planes' true offsets, by which planes of both
+/// bodies that lie by each other are told apart (FlushPlanes.hpp). What all that does not make a simple polytope is left to SurfaceWalk
+/// (ContactSurface.hpp).
 namespace polytope {
 
 template <class R, int W> class FeasibleSet {
@@ -139,8 +140,8 @@ private:
 
 	// --------------------------------------------------------------------------------------------------------------------------------- exploring
 
-	/// A number from 0 to 1, different for each plane and the same in each step. Its bits are mixed, since sums of such numbers must differ, too, for the
-	/// planes of a regular body.
+	/// A number from 0 to 1, different for each plane and the same in each step. Its bits are mixed, since sums of such numbers must differ,
+	/// too, for the planes of a regular body.
 	static R shareOf(int row)
 	{
 		std::uint32_t mixed = 2654435761u * std::uint32_t(row + 1);
@@ -228,7 +229,8 @@ private:
 		return true;
 	}
 
-	/// Slacks at vertex v with the split offsets; false if a plane is violated. Those of its own planes count as far away: rounding must not meet them again.
+	/// Slacks at vertex v with the split offsets; false if a plane is violated. Those of its own planes count as far away: rounding must not
+	/// meet them again.
 	POLYTOPE_INLINE bool slacksAt(int v)
 	{
 		const R* const p    = buffers_.point + 4 * v;

@@ -6,14 +6,16 @@
 
 /// The sums over a pair's contact surface from the vertices and edges of its feasible set.
 ///
-/// A piece of the surface between planes i and j is the set's face in which both are tight, seen along s: a polygon, whose edges are those of the set that
-/// have i and j. Each edge makes a triangle with the piece's first vertex, and none of them is negative, in whatever order they come.
+/// A piece of the surface between planes i and j is the set's face in which both are tight, seen along s: a polygon, whose edges are those
+/// of the set that have i and j. Each edge makes a triangle with the piece's first vertex, and none of them is negative, in whatever order
+/// they come.
 ///
 /// A plane of both bodies belongs to either by half: the sums are the mean of those for the plane as body 1's and as body 2's.
 ///
-/// Volume and level are sums over cones, too, all from the set's first vertex: over each cell (where one plane is tight) in which that vertex does not
-/// lie. A cell, seen along s, is a polyhedron, and the sum of the cones from its own first vertex over those of its pieces in which that does not lie. So most
-/// pieces take no part. With the slack k of the first vertex, where the pressure is σ, in the cell's plane,
+/// Volume and level are sums over cones, too, all from the set's first vertex: over each cell (where one plane is tight) in which that
+/// vertex does not lie. A cell, seen along s, is a polyhedron, and the sum of the cones from its own first vertex over those of its pieces
+/// in which that does not lie. So most pieces take no part. With the slack k of the first vertex, where the pressure is σ, in the cell's
+/// plane,
 ///
 ///     V = Σ k/4 ∫ dV,     W = Σ k (σ/20 ∫ dV + 1/5 ∫ p dV),     the integrals over the cell.
 namespace polytope {

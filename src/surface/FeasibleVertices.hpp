@@ -129,8 +129,9 @@ private:
 		return found;
 	}
 
-	/// The cross products of planes that are nearly parallel give a vertex that is off its planes by what they round, times one over their angle. A step with
-	/// what is left leaves what the slacks round. How long it is says how certain the vertex is along the line in which those planes meet.
+	/// The cross products of planes that are nearly parallel give a vertex that is off its planes by what they round, times one over their
+	/// angle. A step with what is left leaves what the slacks round. How long it is says how certain the vertex is along the line in which
+	/// those planes meet.
 	POLYTOPE_INLINE void refine(int v, const Crossing& c)
 	{
 		R* const   point = buffers_.point + 4 * v;

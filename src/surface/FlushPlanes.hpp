@@ -5,8 +5,9 @@
 
 /// Planes of both bodies that lie by each other, as the sides of blocks in a row do, in the feasible set of a pair (FeasibleSet.hpp).
 ///
-/// They are told apart by their true offsets: of two, the farther one bounds nothing. Where they coincide the energy has a ridge, and the plane belongs to
-/// either body by half. TwinPlanes.hpp has what SurfaceWalk does with planes that coincide, be they of both bodies or of one.
+/// They are told apart by their true offsets: of two, the farther one bounds nothing. Where they coincide the energy has a ridge, and the
+/// plane belongs to either body by half. TwinPlanes.hpp has what SurfaceWalk does with planes that coincide, be they of both bodies or of
+/// one.
 namespace polytope {
 
 template <class R, int W> class FlushPlanes {
@@ -18,8 +19,8 @@ public:
 	{
 	}
 
-	/// Leaves out the farther one of two planes of both bodies that lie so near by each other that changed offsets would hide which is nearer. Whether there
-	/// are any.
+	/// Leaves out the farther one of two planes of both bodies that lie so near by each other that changed offsets would hide which is nearer.
+	/// Whether there are any.
 	POLYTOPE_INLINE bool leaveOutTwins()
 	{
 		bool any = false;

@@ -7,8 +7,8 @@
 #include <array>
 #include <cstdint>
 
-/// Which planes are tight in the vertices of a pair's last feasible set, and which vertices its edges join. From step to step they seldom change: then
-/// FeasibleSet::recall() has the contact surface without looking for it.
+/// Which planes are tight in the vertices of a pair's last feasible set, and which vertices its edges join. From step to step they seldom
+/// change: then FeasibleSet::recall() has the contact surface without looking for it.
 namespace polytope {
 
 /// Values, no pointers: copied and saved with the interaction. Any value is safe.

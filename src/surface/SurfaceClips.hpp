@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "shape/RingsOfNumbers.hpp"
 #include "surface/SurfaceSegment.hpp"
 
 /// The part of a contact surface that lies on one piece of a larger solid.
 ///
-/// A face of the piece that its neighbours cover presses on nothing: it has no cell, so the surface is the one that the solid has, and goes on beyond the
-/// piece. But it parts the surface among the pieces: what they have of it adds up to the whole, and so do their forces and, each at the centre of the pressure on the piece, their moments.
+/// A face of the piece that its neighbours cover presses on nothing: it has no cell, so the surface is the one that the solid has, and goes
+/// on beyond the piece. But it parts the surface among the pieces: what they have of it adds up to the whole, and so do their forces and,
+/// each at the centre of the pressure on the piece, their moments.
 namespace polytope {
 
 /// Half-spaces a·x ≤ d in the planes' frame.
@@ -73,26 +75,12 @@ private:
 
 	POLYTOPE_INLINE void clip(R rest, const R* rate)
 	{
-		int kept = 0;
-		R   last[2];
-		get(now_, count_ - 1, last);
-		R before = rest + rate[0] * last[0] + rate[1] * last[1];
-		for (int t = 0; t < count_; ++t) {
-			R uv[2];
-			get(now_, t, uv);
-			const R here = rest + rate[0] * uv[0] + rate[1] * uv[1];
-			if ((here >= 0) != (before >= 0)) {
-				const R part        = before / (before - here);
-				const R crossing[2] = { last[0] + part * (uv[0] - last[0]), last[1] + part * (uv[1] - last[1]) };
-				put(1 - now_, kept++, crossing);
-			}
-			if (here >= 0) put(1 - now_, kept++, uv);
-			last[0] = uv[0];
-			last[1] = uv[1];
-			before  = here;
-		}
-		now_   = 1 - now_;
-		count_ = kept;
+		const int from = now_, to = 1 - now_;
+		count_ = keepAbove<R>(
+		        count_, [&](int k, R* uv) { get(from, k, uv); },
+		        [&](int, const R* uv) { return rest + rate[0] * uv[0] + rate[1] * uv[1]; },
+		        [&](int k, const R* uv) { put(to, k, uv); });
+		now_ = to;
 	}
 
 	const SurfaceBuffers<R, 3>& buffers_;

@@ -75,8 +75,8 @@ template <class R, int D> POLYTOPE_INLINE bool placePiece(const PairPlanes<R, D>
 /// that of plane i or j, whose normal is nearer: the differences of nearly parallel planes are exact, and where such planes meet is as
 /// certain as where others do.
 ///
-/// A plane may have the pressure all over the piece. If its normal is not between those of i and j it is nearer than one of them on that one's side, where
-/// there is no cell of it then: such a plane leaves nothing of the piece.
+/// A plane may have the pressure all over the piece. If its normal is not between those of i and j it is nearer than one of them on that
+/// one's side, where there is no cell of it then: such a plane leaves nothing of the piece.
 template <class R, int D, int W>
 POLYTOPE_INLINE void planesOnPiece(const PairPlanes<R, D>& planes, const SurfacePiece<R, D>& piece, const SurfaceBuffers<R, D>& buffers)
 {

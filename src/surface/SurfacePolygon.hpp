@@ -6,17 +6,17 @@
 /// A piece of the surface in 3-D, cut to where no other plane has a smaller slack and none is negative: a convex polygon. Each edge carries the
 /// number of the plane that has the same slack there.
 ///
-/// It begins as a square. Planes that are known to meet it cut first, which leaves little more than the piece; the others are compared with all vertices
-/// together, and few of them cut. No plane cuts twice. A new vertex is the crossing of two lines, not a point between two vertices: a polygon a thousand million times
-/// smaller than the square keeps its digits.
+/// It begins as a square. Planes that are known to meet it cut first, which leaves little more than the piece; the others are compared with
+/// all vertices together, and few of them cut. No plane cuts twice. A new vertex is the crossing of two lines, not a point between two
+/// vertices: a polygon a thousand million times smaller than the square keeps its digits.
 namespace polytope {
 
 template <class R, int D, int W> class SurfaceCut;
 
 template <class R, int W> class SurfaceCut<R, 3, W> {
 public:
-	/// The polygon of the piece whose planes are in the buffers' rows; it uses these rows up. `reach`: half the square's width; `deepest`: the largest p;
-	/// `known`: planes that meet the piece, as far as is known.
+	/// The polygon of the piece whose planes are in the buffers' rows; it uses these rows up. `reach`: half the square's width; `deepest`: the
+	/// largest p; `known`: planes that meet the piece, as far as is known.
 	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 3>& buffers, R reach, R deepest, const int* known)
 	        : buffers_(buffers), deepest_(deepest)
 	{

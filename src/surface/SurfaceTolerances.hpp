@@ -11,8 +11,9 @@ namespace polytope::tolerance {
 constexpr Real pieceBox = 4;
 
 /// Two planes whose normals differ by no more than this, and offsets by no more than this × size, are one plane: that is what is left of
-/// coincident planes after they have been placed in one frame. Faces in line of blocks that were cut from one mass may be off by more, but with a wider
-/// bound overlaps that are some roundings deep lose digits (ContactSurfaceTest.cpp). A force of the order of depth over size comes and goes at the bound.
+/// coincident planes after they have been placed in one frame. Faces in line of blocks that were cut from one mass may be off by more, but
+/// with a wider bound overlaps that are some roundings deep lose digits (ContactSurfaceTest.cpp). A force of the order of depth over size
+/// comes and goes at the bound.
 constexpr Real twinPlanes = 8 * rounding;
 
 /// Sine of the angle between two lines below which their crossing is interpolated between the ends of the line that is cut: below, the
@@ -33,11 +34,12 @@ constexpr int feasibleVertices = 64, feasiblePlanes = 64;
 /// Least volume of the parallelepiped of a vertex' planes over that of their lengths: below, they are too nearly parallel to say where they meet.
 constexpr Real vertexVolume = 1e-8;
 
-/// Volume of that parallelepiped over the product of the lengths below which it matters for the digits of a vertex which plane is subtracted from the others.
+/// Volume of that parallelepiped over the product of the lengths below which it matters for the digits of a vertex which plane is
+/// subtracted from the others.
 constexpr Real sharpVertex = 1e-2;
 
-/// × size: offsets of planes are changed by no more than this, each by its own part, to say which four of several planes that meet belong together. Far
-/// above rounding, and far below what a contact can be seen in; no vertex has changed offsets.
+/// × size: offsets of planes are changed by no more than this, each by its own part, to say which four of several planes that meet belong
+/// together. Far above rounding, and far below what a contact can be seen in; no vertex has changed offsets.
 constexpr Real splitPlanes = 65536 * rounding;
 
 /// Pivots to the vertex that is the optimum with the changed offsets, at the most: as many as there are planes that meet in it.

@@ -8,10 +8,10 @@
 
 /// Time in which two bodies that may meet move towards or past each other by a fraction of the smaller one's inscribed radius.
 ///
-/// Problem: a contact must not begin deep in a body, so what bodies move against each other in a step has to be small. Only of those that can meet until
-/// the step is chosen anew: what has left a scene and falls for ever, or is carried along on what moves as fast, does not count. The pairs are found
-/// by a tree of boxes with the range of their velocities: two branches that cannot meet, or whose velocities differ too little to limit
-/// anything, are left out as a whole.
+/// Problem: a contact must not begin deep in a body, so what bodies move against each other in a step has to be small. Only of those that
+/// can meet until the step is chosen anew: what has left a scene and falls for ever, or is carried along on what moves as fast, does not
+/// count. The pairs are found by a tree of boxes with the range of their velocities: two branches that cannot meet, or whose velocities
+/// differ too little to limit anything, are left out as a whole.
 ///
 /// SI units; world axes.
 namespace polytope {

@@ -6,9 +6,9 @@
 
 /// Rocking stiffness of a contact at the analytic centre, and of two faces with the contact model *spring*.
 ///
-/// At the analytic centre: where two faces lie on each other, a tilt θ makes the overlap a wedge, and the analytic centre moves towards its thick side.
-/// The centre x is where Σ a_i/σ_i = 0 over all planes of both bodies, σ_i = d_i − a_i·x their slacks. Turning body 2 by θ about
-/// x leaves its slacks at x as they are and turns its normals, so with H = Σ a_i a_iᵀ/σ_i² and g = Σ over body 2 of a_i/σ_i
+/// At the analytic centre: where two faces lie on each other, a tilt θ makes the overlap a wedge, and the analytic centre moves towards its
+/// thick side. The centre x is where Σ a_i/σ_i = 0 over all planes of both bodies, σ_i = d_i − a_i·x their slacks. Turning body 2 by θ
+/// about x leaves its slacks at x as they are and turns its normals, so with H = Σ a_i a_iᵀ/σ_i² and g = Σ over body 2 of a_i/σ_i
 ///
 ///     dx = −H⁻¹ (θ × g),    moment = normal force × |g| [n]× H⁻¹ [n]×ᵀ θ        (g is along −n).
 ///

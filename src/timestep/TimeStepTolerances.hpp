@@ -26,8 +26,8 @@ constexpr unsigned potentialUpdates = 10;
 /// Part of a body's ω² from which on the rocking of its contacts is named as what limits the time step.
 constexpr double rockingShare = 0.5;
 
-/// Time step of a scene in which nothing can move, as a part of the period after which an engine is called again. What the engine puts into the scene then
-/// falls for a time that is shorter or longer by up to this part, until the next call.
+/// Time step of a scene in which nothing can move, as a part of the period after which an engine is called again. What the engine puts into
+/// the scene then falls for a time that is shorter or longer by up to this part, until the next call.
 constexpr double periodStep = 0.01;
 
 } // namespace polytope::tolerance

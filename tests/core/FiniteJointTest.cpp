@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/FiniteJoint.hpp"
+#include "cutting/FiniteJoint.hpp"
 
 #include "ShapeSamples.hpp"
-#include "shape/JointAreas.hpp"
-#include "shape/JointedBlocks.hpp"
+#include "cutting/JointAreas.hpp"
+#include "cutting/JointedBlocks.hpp"
 
 using namespace polytope;
 using namespace polytope::samples;

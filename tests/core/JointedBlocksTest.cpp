@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/JointedBlocks.hpp"
+#include "cutting/JointedBlocks.hpp"
 
 #include "ShapeSamples.hpp"
 #include "shape/ConvexShape.hpp"

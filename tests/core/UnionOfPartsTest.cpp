@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/UnionOfParts.hpp"
+#include "cutting/UnionOfParts.hpp"
 
 #include "ShapeSamples.hpp"
 

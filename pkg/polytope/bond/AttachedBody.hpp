@@ -7,8 +7,8 @@
 
 namespace yade {
 
-/// Whether the body with an id is still the one to which something was attached, not another one that has got its number. Not saved: what comes from a
-/// file takes those of its numbers.
+/// Whether the body with an id is still the one to which something was attached, not another one that has got its number. Not saved: what
+/// comes from a file takes those of its numbers.
 class AttachedBody {
 public:
 	bool isStill(Body::id_t id, const BodyContainer& bodies) const

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bond/BondOfParts.hpp"
 
-#include <src/bond/BondTolerances.hpp>
 #include <src/bond/TensionFibres.hpp>
 
-#include "shape/ShapeOfBody.hpp"
-
-#include <boost/optional.hpp>
+#include "bond/CommonFaceOfBodies.hpp"
 
 #include <algorithm>
 
@@ -23,20 +20,6 @@ namespace {
 		{
 		}
 	};
-
-	/// The largest one that looks along the bond, with part 2 moved by the shift.
-	boost::optional<polytope::CommonFace> commonFace(
-	        const Body& part1, const Body& part2, const Vector3r& shift, const Vector3r& normal)
-	{
-		const auto *shape1 = convexShapeOf(part1), *shape2 = convexShapeOf(part2);
-		if (!shape1 || !shape2) return {};
-		const Real farthest
-		        = Real(polytope::tolerance::deepestOfFaces) * math::min(shape1->inscribedRadius(), shape2->inscribedRadius());
-		const auto faces = polytope::commonFaces(
-		        placed(*shape1, *part1.state), placed(*shape2, *part2.state, shift), farthest, polytope::tolerance::facingOfJoints);
-		const auto* largest = polytope::largestAlong(faces, normal, math::cos(Real(polytope::tolerance::facingOfJoints)));
-		return largest ? boost::make_optional(*largest) : boost::none;
-	}
 
 	/// Each fibre has the opening of the one of the whole that is nearest.
 	/// \param place,turn of the part's axes in those of the whole
@@ -64,7 +47,8 @@ shared_ptr<PolytopeBond> bondOfParts(const PolytopeBond& whole, const Body& whol
 	const Side side1(*whole1.state, whole.point1, whole.frame1), side2(*whole2.state, whole.point2, whole.frame2);
 	const auto motion = polytope::bondMotion(side1.axes, side2.axes, side2.origin - side1.origin);
 	// the area is the one that it was made with: where its two points are one
-	const auto face = commonFace(part1, part2, side1.origin - side2.origin, motion.mean * Vector3r::UnitX());
+	const auto face = largestCommonFace(part1, part2, side1.origin - side2.origin, motion.mean * Vector3r::UnitX(),
+	        polytope::deepestOverlap, math::cos(Real(polytope::tolerance::facingOfJoints)));
 	if (!face) return nullptr;
 
 	// the part's place and axes in the area of the whole

@@ -63,8 +63,8 @@ Real PolytopeBond::meanLastingOpening() const
 	return sum / area;
 }
 
-/// Force and moment of a bond that yields: those of the springs, except for the normal stresses, which are those of fibres. (Bending and normal stiffness of a
-/// joint are the same.)
+/// Force and moment of a bond that yields: those of the springs, except for the normal stresses, which are those of fibres. (Bending and
+/// normal stiffness of a joint are the same.)
 polytope::BondForce PolytopeBond::yieldingForce(const polytope::BondMotion& motion)
 {
 	const Vector3r &         d = motion.displacement, turn = motion.rotation;

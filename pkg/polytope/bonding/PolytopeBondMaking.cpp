@@ -197,7 +197,7 @@ std::vector<shared_ptr<PolytopeBond>> PolytopeBonds::found(
 		const Bondable &one = ordered ? a : b, &two = ordered ? b : a;
 		const Vector3i  by     = ordered ? cells : Vector3i(-cells);
 		const Vector3r  shift  = placeByCells(where, by);
-		const Real      within = gap >= 0 ? gap : Real(polytope::tolerance::touchingFaces) * math::min(one.radius, two.radius);
+		const Real      within = gap >= 0 ? gap : polytope::touchingGap(*one.shape, *two.shape);
 		for (const polytope::CommonFace& face : polytope::commonFaces(
 		             placed(*one.shape, *one.body->state), placed(*two.shape, *two.body->state, shift), within, angle)) {
 			found.push_back(bondAt(face, pattern, *one.body, *two.body, shift));

@@ -66,8 +66,8 @@ void PolytopeBonds::action()
 	settle();
 }
 
-/// Whether, in a divided scene, a body is this rank's. Two ranks that share a bond find the same force, since they have the same states. Rank 0 has fixed
-/// bodies and does not know the others; workers send it the forces on its own.
+/// Whether, in a divided scene, a body is this rank's. Two ranks that share a bond find the same force, since they have the same states.
+/// Rank 0 has fixed bodies and does not know the others; workers send it the forces on its own.
 bool PolytopeBonds::isOurs(const PolytopeBond& bond) const
 {
 	const auto own = [&](Body::id_t id) { return scene->bodies->exists(id) && rankOf(*(*scene->bodies)[id]) == rankOf(*scene); };
@@ -140,8 +140,8 @@ void PolytopeBonds::endErased(const Scene& where)
 	}
 }
 
-/// Books for the bonds that acted for the last time in the step before what they had stored and have not given to the bodies. Where a joint has taken over,
-/// its law accounts for the force.
+/// Books for the bonds that acted for the last time in the step before what they had stored and have not given to the bodies. Where a joint
+/// has taken over, its law accounts for the force.
 void PolytopeBonds::bookFailed()
 {
 	for (int k : failed_) {

@@ -11,8 +11,9 @@
 /// Steps of a law functor that an extension writes: what it need not write anew. The normal force is its own.
 namespace yade {
 
-/// Shear force of a spring with Coulomb's friction: that of the last step, turned with the contact, less \c ks times the motion along it, and at most the friction of the normal
-/// force. For geometries of which the functor computes what has moved, as all derived from PolytopeGeom.
+/// Shear force of a spring with Coulomb's friction: that of the last step, turned with the contact, less \c ks times the motion along it,
+/// and at most the friction of the normal force. For geometries of which the functor computes what has moved, as all derived from
+/// PolytopeGeom.
 inline void followShear(ScGeom& geom, FrictPhys& phys)
 {
 	geom.rotate(phys.shearForce);

@@ -13,11 +13,11 @@
 
 /// The half-spaces that stand for a facet: the ground behind it.
 ///
-/// A facet alone is the front of a prism with upright sides. Prisms of a mesh that is bent would overlap behind a convex edge, so that what presses on the
-/// edge would be counted twice, and leave a wedge free behind a hollow one. So the side at an edge that another facet shares is mitred: it is the
-/// plane half-way between both. At a convex tip the prism holds what is nearer to its facet than to the others there. Then the prisms of a mesh
-/// fill the ground near its surface once: exactly along edges and at convex tips, and but for what is as near to a corner as
-/// it is deep at others.
+/// A facet alone is the front of a prism with upright sides. Prisms of a mesh that is bent would overlap behind a convex edge, so that what
+/// presses on the edge would be counted twice, and leave a wedge free behind a hollow one. So the side at an edge that another facet shares
+/// is mitred: it is the plane half-way between both. At a convex tip the prism holds what is nearer to its facet than to the others there.
+/// Then the prisms of a mesh fill the ground near its surface once: exactly along edges and at convex tips, and but for what is as near to
+/// a corner as it is deep at others.
 ///
 /// Neighbours are facets with the same corners that the same body may touch. In the facet's own axes; lengths in m.
 namespace yade {

@@ -102,8 +102,8 @@ namespace {
 		return false;
 	}
 
-	/// How far the solid goes on beyond a covered face, along its normal: to where the way from the overlap along that, within the face that is slid on, leaves the pieces that
-	/// continue this one. It does not end where it leaves through a face that this piece has, too.
+	/// How far the solid goes on beyond a covered face, along its normal: to where the way from the overlap along that, within the face that
+	/// is slid on, leaves the pieces that continue this one. It does not end where it leaves through a face that this piece has, too.
 	Real wayBeyond(const TouchingPair& pair, int piece, const Candidate& covered, const std::vector<Solid>& others)
 	{
 		const Real        infinite = std::numeric_limits<Real>::infinity();

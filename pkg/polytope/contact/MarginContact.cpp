@@ -195,7 +195,8 @@ namespace {
 		}
 	};
 
-	/// The strip in which an edge or a segment between two ends lies on the other body, of two margins together and so deep: half its width is the rim of the section half as deep.
+	/// The strip in which an edge or a segment between two ends lies on the other body, of two margins together and so deep: half its width is
+	/// the rim of the section half as deep.
 	std::vector<polytope::Vector2> stripAround(const std::vector<polytope::Vector2>& ends, Real margins, Real deepest)
 	{
 		const polytope::Vector2 way = ends[1] - ends[0];

@@ -65,7 +65,8 @@ std::optional<SupportPlace> MarginOnPieces::placeOn(const Piece& piece) const
 	return SupportPlace { way.normal, way.point[0], margin_ - way.distance };
 }
 
-/// Where the core itself overlaps pieces: out through a face of this one that others continue and none covers at `point`, the nearest, if the core slides on it.
+/// Where the core itself overlaps pieces: out through a face of this one that others continue and none covers at `point`, the nearest, if
+/// the core slides on it.
 std::optional<SupportPlace> MarginOnPieces::placeOnFace(const Vector3r& point, Real room) const
 {
 	std::optional<SupportPlace> best;

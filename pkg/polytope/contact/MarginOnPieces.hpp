@@ -7,13 +7,15 @@
 
 #include <vector>
 
-/// A body with a margin on several pieces of one rigid support: fixed polytopes, YADE's boxes and walls, facets of a mesh, members of a clump; pieces without margins of their own.
+/// A body with a margin on several pieces of one rigid support: fixed polytopes, YADE's boxes and walls, facets of a mesh, members of a
+/// clump; pieces without margins of their own.
 ///
-/// Each pair knows the way to its own piece alone: beside a seam that leads to the edge of the next piece, which is no edge of the support, and a face that lies on four pieces has
-/// four springs. So, where pieces meet, each contact is that of the body with all of them: their nearest point and normal, and closure and line of action of the face that
-/// goes on over flush pieces (src/contact/SpreadContact.hpp). Each has a share of it: the part of the body's section, half as deep as it overlaps, that lies in its piece, of
-/// what lies in all; and it acts as far from the common line of action as the middle of its part lies from that of all. Then together they have the force and the moment of one
-/// contact, and shares change without a jump. Where a contact begins its part is zero.
+/// Each pair knows the way to its own piece alone: beside a seam that leads to the edge of the next piece, which is no edge of the support,
+/// and a face that lies on four pieces has four springs. So, where pieces meet, each contact is that of the body with all of them: their
+/// nearest point and normal, and closure and line of action of the face that goes on over flush pieces (src/contact/SpreadContact.hpp).
+/// Each has a share of it: the part of the body's section, half as deep as it overlaps, that lies in its piece, of what lies in all; and it
+/// acts as far from the common line of action as the middle of its part lies from that of all. Then together they have the force and the
+/// moment of one contact, and shares change without a jump. Where a contact begins its part is zero.
 ///
 /// It follows from poses and shapes alone. Lengths in m, from the origin of the moving body's core, world axes.
 namespace yade {

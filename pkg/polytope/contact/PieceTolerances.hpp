@@ -10,12 +10,12 @@ namespace yade::pieces {
 /// with large coordinates some less.
 constexpr double sameCorner = 1e-5;
 
-/// Tilt of two facets [rad] that is no edge, and difference of planes, over their size, that is the rounding of poses: the prism stays as it is, so that
-/// it is not built again in each step while a mesh turns.
+/// Tilt of two facets [rad] that is no edge, and difference of planes, over their size, that is the rounding of poses: the prism stays as
+/// it is, so that it is not built again in each step while a mesh turns.
 constexpr double samePlane = 1e-9;
 
-/// Angles of the solid at the edge of two facets [rad] between which the edge is mitred. Below, the facets are a sheet that is seen from both sides; above,
-/// the prism would reach far beyond its facet.
+/// Angles of the solid at the edge of two facets [rad] between which the edge is mitred. Below, the facets are a sheet that is seen from
+/// both sides; above, the prism would reach far beyond its facet.
 constexpr double sharpestEdge = 0.05, widestEdge = 5.5;
 
 /// Facets beyond the edges' neighbours by which the prism at a convex tip is cut.

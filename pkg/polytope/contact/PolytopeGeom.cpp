@@ -113,7 +113,8 @@ namespace {
 		return 1;
 	}
 
-	/// Whether all codes of internal faces are those of planes that the bodies have: a body whose shape was exchanged must not be read beyond its planes.
+	/// Whether all codes of internal faces are those of planes that the bodies have: a body whose shape was exchanged must not be read beyond
+	/// its planes.
 	bool fit(const std::vector<int>& codes, const polytope::ConvexShape& convex1, const polytope::ConvexShape& convex2)
 	{
 		for (int code : codes)

@@ -230,16 +230,17 @@ protected:
 	/// Finds internal faces; true if they differ from those in the geometry, which is then updated.
 	static bool findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom);
 
-	/// Counts the result and, for a contact, writes it into ScGeom. `origin1`: what result.point is relative to. A failure is a result whose normal is no unit vector
-	/// (tolerance::orthogonal), whose point, depth, area, energy or turning arm is not finite or whose area is negative, and a contact without a geometry.
+	/// Counts the result and, for a contact, writes it into ScGeom. `origin1`: what result.point is relative to. A failure is a result whose
+	/// normal is no unit vector (tolerance::orthogonal), whose point, depth, area, energy or turning arm is not finite or whose area is
+	/// negative, and a contact without a geometry.
 	bool apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
 	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 
 	/// The scene's; the defaults where it has no functor of two polytopes.
 	const Ig2_Polytope_Polytope_PolytopeGeom& ofScene() const;
 
-	/// Counts a pair that has no answer (a shape that is no solid, a polygon against a polyhedron): its status is *failed*, stats() has it among *failures*, and a contact
-	/// keeps its last geometry.
+	/// Counts a pair that has no answer (a shape that is no solid, a polygon against a polyhedron): its status is *failed*, stats() has it
+	/// among *failures*, and a contact keeps its last geometry.
 	bool failed(const shared_ptr<Interaction>& c);
 
 	ContactCounters& counters();

@@ -6,8 +6,8 @@
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Facet.hpp>
 
-/// Half-spaces that stand for YADE's boxes and facets where they are met: made for each pair, kept in its geometry (StandIn::partner), and made anew where the shape, or
-/// the mesh around a facet, has changed. Null: there is no such solid.
+/// Half-spaces that stand for YADE's boxes and facets where they are met: made for each pair, kept in its geometry (StandIn::partner), and
+/// made anew where the shape, or the mesh around a facet, has changed. Null: there is no such solid.
 namespace yade {
 
 /// \param cornerRadius of the body that meets it [m]

@@ -15,8 +15,8 @@
 
 namespace yade {
 
-/// A contact's polytope::KeptVertices as far as they are used, the planes in a byte each where they fit, as those of bodies with up to 127 planes do. Those of
-/// most contacts are within the geometry itself: the next pair's come into the cache with it (Prefetch.hpp).
+/// A contact's polytope::KeptVertices as far as they are used, the planes in a byte each where they fit, as those of bodies with up to 127
+/// planes do. Those of most contacts are within the geometry itself: the next pair's come into the cache with it (Prefetch.hpp).
 class StoredVertices {
 public:
 	/// Needs new memory only where there are more vertices than ever before.

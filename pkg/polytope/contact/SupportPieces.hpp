@@ -32,8 +32,9 @@ inline const Body& bodyOf(const TouchingPair& pair, int which)
 	return *Body::byId(which == 0 ? pair.contact->getId1() : pair.contact->getId2(), pair.scene);
 }
 
-/// Which of the bodies (0, 1) is the support where both are pieces: the fixed one, else the one with the lower number. The pieces of the other one may be too far away to be
-/// seen here, so the solids of several contacts would differ; but its seams move with it, so it does not slide over them.
+/// Which of the bodies (0, 1) is the support where both are pieces: the fixed one, else the one with the lower number. The pieces of the
+/// other one may be too far away to be seen here, so the solids of several contacts would differ; but its seams move with it, so it does
+/// not slide over them.
 int supportOf(const TouchingPair& pair);
 
 /// Half-spaces of a body whose centre is at `centre` from the contact point, as a body whose centre is at `other` meets it. None for
@@ -46,8 +47,8 @@ bool contains(const Planes& planes, const Vector3r& point, const Real& room = 0)
 /// How high a step between two faces is that count as one.
 Real flushStep(const TouchingPair& pair);
 
-/// Calls visit(neighbour, its centre from the contact point, its shift) for the other pieces of the rigid support that body `mover` of the pair may touch:
-/// they are in its list of pairs.
+/// Calls visit(neighbour, its centre from the contact point, its shift) for the other pieces of the rigid support that body `mover` of the
+/// pair may touch: they are in its list of pairs.
 template <class Visit> void forOtherPieces(const TouchingPair& pair, int mover, const Visit& visit)
 {
 	const Body&    body   = bodyOf(pair, mover);

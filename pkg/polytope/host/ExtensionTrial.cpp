@@ -38,8 +38,8 @@ namespace {
 		_exit(written < 0 ? 2 : thrown);
 	}
 
-	/// An exception of a constructor ends here, by std::terminate: this process must not go on as a second one of the script. Through a pointer, since dlopen is
-	/// declared as a function that throws nothing, to which compilers add no such end.
+	/// An exception of a constructor ends here, by std::terminate: this process must not go on as a second one of the script. Through a
+	/// pointer, since dlopen is declared as a function that throws nothing, to which compilers add no such end.
 	void loadOnTrial(const char* path) noexcept
 	{
 		void* (*const volatile load)(const char*, int) = dlopen;

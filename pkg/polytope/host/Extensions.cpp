@@ -53,8 +53,8 @@ namespace {
 		return bytes;
 	}
 
-	/// Where a library ends before the table of its sections, which is its last part. The dynamic linker does not ask: it maps what is not there into memory, and the
-	/// process ends where it reads that.
+	/// Where a library ends before the table of its sections, which is its last part. The dynamic linker does not ask: it maps what is not
+	/// there into memory, and the process ends where it reads that.
 	void refusePart(const std::string& bytes)
 	{
 		Elf64_Ehdr head;
@@ -145,15 +145,16 @@ namespace {
 		std::string reason;
 	};
 
-	/// Libraries that were refused after they had been loaded, by their paths: they stay in the process, and YADE's factory keeps their classes. What was refused before that,
-	/// as on trial, is looked at anew.
+	/// Libraries that were refused after they had been loaded, by their paths: they stay in the process, and YADE's factory keeps their
+	/// classes. What was refused before that, as on trial, is looked at anew.
 	std::map<std::string, Refused>& staying()
 	{
 		static std::map<std::string, Refused> all;
 		return all;
 	}
 
-	/// Makes the library's classes known to YADE's factory, and its normal laws by their names; where they are refused they are taken out of those lists again.
+	/// Makes the library's classes known to YADE's factory, and its normal laws by their names; where they are refused they are taken out of
+	/// those lists again.
 	Extension opened(const std::string& path, const std::string& name, std::size_t content)
 	{
 		if (const std::string fault = faultOfConstructors(path); !fault.empty()) throw std::runtime_error(fault);
@@ -221,7 +222,8 @@ const Extension& loadExtension(const std::string& path)
 
 } // namespace yade
 
-/// Called by Plugin.cpp when YADE starts, which registers the classes of all libraries with Python after this. An empty text, or what to tell the user.
+/// Called by Plugin.cpp when YADE starts, which registers the classes of all libraries with Python after this. An empty text, or what to
+/// tell the user.
 extern "C" __attribute__((visibility("default"))) const char* polytopeLoadExtension(const char* path)
 {
 	static std::string answer;

@@ -7,9 +7,9 @@
 
 namespace yade {
 
-/// Calls visit(partner, shift) for the bodies that `body` may touch, as the collider has them in its list of pairs, without one of them. `shift`: from
-/// where the partner is to where it is in the period of `body`. Poses and shapes of others may be read while contacts are computed; what other pairs
-/// remember may not.
+/// Calls visit(partner, shift) for the bodies that `body` may touch, as the collider has them in its list of pairs, without one of them.
+/// `shift`: from where the partner is to where it is in the period of `body`. Poses and shapes of others may be read while contacts are
+/// computed; what other pairs remember may not.
 template <class Visit> void forPartners(const Body& body, Body::id_t without, Scene& scene, const Visit& visit)
 {
 	for (const auto& [id, contact] : body.intrs) {

@@ -104,8 +104,8 @@ std::string loadClasses(const std::string& folder)
 	return "";
 }
 
-/// The extensions (docs/extending.md) of the folder yade-polytope/<precision> beside YADE's library folder, in the order of their names, and of the paths in
-/// YADE_POLYTOPE_EXTENSIONS. YADE itself looks into none of them. One that does not fit is left out, with a warning.
+/// The extensions (docs/extending.md) of the folder yade-polytope/<precision> beside YADE's library folder, in the order of their names,
+/// and of the paths in YADE_POLYTOPE_EXTENSIONS. YADE itself looks into none of them. One that does not fit is left out, with a warning.
 void loadExtensions(const std::string& folder)
 {
 	namespace files = std::filesystem;

@@ -16,8 +16,8 @@ namespace prefetch {
 	/// tenth in a heap of 10 000 cubes.
 	constexpr int pair = 6, parts = 4, bodyParts = 2;
 
-	/// Bytes of a contact's physics that are fetched: what is read in each step. Where the physics of joints are defined, it is checked that they keep to
-	/// this.
+	/// Bytes of a contact's physics that are fetched: what is read in each step. Where the physics of joints are defined, it is checked that
+	/// they keep to this.
 	constexpr std::size_t physicsBytes = 96 * sizeof(Real);
 
 	/// Does not read at that address: another thread may be deleting the pair's geometry.
@@ -32,8 +32,8 @@ namespace prefetch {
 
 } // namespace prefetch
 
-/// To be called from a functor's go(), with the sizes of the geometry and the shape that it is for. Bodies and the list of pairs stay as they are while
-/// the loop runs; other shapes and geometries than ours are smaller.
+/// To be called from a functor's go(), with the sizes of the geometry and the shape that it is for. Bodies and the list of pairs stay as
+/// they are while the loop runs; other shapes and geometries than ours are smaller.
 inline void prefetchAfter(const Interaction& now, const Scene& scene, std::size_t geometryBytes, std::size_t shapeBytes)
 {
 	if (now.linIx < 0) return; // a pair outside the loop

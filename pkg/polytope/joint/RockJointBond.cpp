@@ -9,10 +9,7 @@
 // (PolytopeGeom::actAsBond()).
 #include "joint/RockJointStep.hpp"
 
-#include <src/bond/BondTolerances.hpp>
-#include <src/bond/CommonFace.hpp>
-
-#include "shape/ShapeOfBody.hpp"
+#include "bond/CommonFaceOfBodies.hpp"
 
 #include <optional>
 
@@ -46,18 +43,13 @@ namespace {
 	shared_ptr<PolytopeBond> bondOfFaces(const Interaction& contact, const Body& body1, const Body& body2, const Vector3r& shift,
 	        const Vector3r& normal, const RockJointPhys& phys, const Vector3r& shear)
 	{
-		const auto *shape1 = convexShapeOf(body1), *shape2 = convexShapeOf(body2);
-		if (!shape1 || !shape2) return nullptr;
-		const State &state1 = *body1.state, &state2 = *body2.state;
-		const Real   touching
-		        = Real(polytope::tolerance::touchingFaces) * math::min(shape1->boundingRadius(), shape2->boundingRadius());
-		const auto faces = polytope::commonFaces(
-		        placed(*shape1, state1), placed(*shape2, state2, shift), touching, polytope::tolerance::facingOfJoints);
-		const polytope::CommonFace* const largest = polytope::largestAlong(faces, normal, 0);
+		const auto largest = largestCommonFace(body1, body2, shift, normal, polytope::touchingGap, 0);
 		if (!largest) return nullptr;
-		const auto bond = bondOf(*largest, contact, state1, state2, shift, -shear / (phys.shearStiffness * largest->area));
+		const State &state1 = *body1.state, &state2 = *body2.state;
+		const auto   bond = bondOf(*largest, contact, state1, state2, shift, -shear / (phys.shearStiffness * largest->area));
 		takeStiffnesses(*bond, phys);
 		bond->follow(state1, state2, shift);
+		const Real touching = polytope::touchingGap(*convexShapeOf(body1), *convexShapeOf(body2));
 		return bond->edgeStress <= phys.normalStiffness * touching ? bond : nullptr;
 	}
 

@@ -13,8 +13,8 @@
 /// the contacts do. A contact that begins has not been in a sum: its part is that of the area that a body shows in this direction, so a face that
 /// comes down on many pieces at once is damped as on one.
 ///
-/// No damper takes more than the motion that there is: with w₁, w₂ the velocity that an impulse of one gives to either body at the contact point, rotation
-/// included, c Δt ≤ 1/(w₁/s₁ + w₂/s₂). The parts sum to one, so this holds for all dampers of a body together, too.
+/// No damper takes more than the motion that there is: with w₁, w₂ the velocity that an impulse of one gives to either body at the contact
+/// point, rotation included, c Δt ≤ 1/(w₁/s₁ + w₂/s₂). The parts sum to one, so this holds for all dampers of a body together, too.
 namespace yade {
 
 class Body;
@@ -26,12 +26,12 @@ class StiffnessSums;
 /// Critical damper of a spring of this stiffness, for one over the masses that it damps [N·s/m].
 inline Real criticalDamper(const Real& stiffness, const Real& inverseMass) { return 2 * math::sqrt(stiffness / inverseMass); }
 
-/// Mean square of the distance from an axis through the centroid of the area that a rocking damper is spread over: a square of the contact's area, or, of
-/// polygons, its length [m²].
+/// Mean square of the distance from an axis through the centroid of the area that a rocking damper is spread over: a square of the
+/// contact's area, or, of polygons, its length [m²].
 Real rockingGyrationSquared(const Body& body1, const Body& body2, const RockJointPhys& phys);
 
-/// 1/(s₁ m₁) + 1/(s₂ m₂) of a contact between two steps, from the newest sums [1/kg]; 0 where neither body can move. The sums are those that the dampers of
-/// the next step read, so that what is the time step's limit now is what they do then.
+/// 1/(s₁ m₁) + 1/(s₂ m₂) of a contact between two steps, from the newest sums [1/kg]; 0 where neither body can move. The sums are those
+/// that the dampers of the next step read, so that what is the time step's limit now is what they do then.
 Real inverseDampedMass(const Body& body1, const Body& body2, const Vector3r& normal, const RockJointPhys& phys, const StiffnessSums& sums,
         const Scene& scene);
 

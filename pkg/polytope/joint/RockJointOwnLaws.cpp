@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Joints with a closure and a shear law of their own (material/JointLaws.hpp; the laws are in src/joint). The law of rock joints asks for them in three
-// places of its step: before the springs have their stiffness, with the trial forces, and with the forces that remain. All else is as with Mohr-Coulomb: a
-// shear law says which friction angle there is at present.
+// Joints with a closure and a shear law of their own (material/JointLaws.hpp; the laws are in src/joint). The law of rock joints asks for
+// them in three places of its step: before the springs have their stiffness, with the trial forces, and with the forces that remain. All
+// else is as with Mohr-Coulomb: a shear law says which friction angle there is at present.
 #include "joint/RockJointShear.hpp"
 
 #include <src/joint/JointTolerances.hpp>

@@ -79,7 +79,8 @@ public:
 	Real normalEnergy(const PolytopeGeom& geom, Real force) const;
 	/// Energy of the normal spring with its present force [J]; of a joint that acts as a bond, the energy of the bond without that of shear.
 	Real presentNormalEnergy(const PolytopeGeom& geom) const;
-	/// Gives kn, while it is that of the linear spring, the slope of the joint's own closure law at this overlap; returns that slope over the initial stiffness.
+	/// Gives kn, while it is that of the linear spring, the slope of the joint's own closure law at this overlap; returns that slope over the
+	/// initial stiffness.
 	Real stiffen(Real overlap);
 	bool hasOwnStrength() const;
 	/// All slip of a joint with a shear law of its own; the length of the slip of others [m].
@@ -87,7 +88,8 @@ public:
 	/// What tan φ of a shear law of its own is divided by; 1 for other joints.
 	Real getReduction() const;
 	void setReduction(Real value);
-	/// A force of the normal spring beyond the strength in tension: it keeps the residual one, and the rest becomes lasting opening; returns its work [J].
+	/// A force of the normal spring beyond the strength in tension: it keeps the residual one, and the rest becomes lasting opening; returns
+	/// its work [J].
 	Real yieldInTension(Real& normalForce);
 	/// Slip by which the spring loses this part of its shear force [N], which is on body 2 and so against the slip.
 	void slide(const Vector3r& excess);

@@ -75,8 +75,8 @@ void Shear::setArea(const RockJointPhys& phys)
 /// With springs that join or leave on one side the area's centroid moves through the bodies. What has joined carries nothing: the force stays in its
 /// line, and about the new centroid has a moment. What has left takes its part along: the others are strained as they were.
 ///
-/// A rigid bed cannot tell which of its springs hold that moment, so its energy is counted in addition: in a block that tumbles on its edges, a few 1e-5 of
-/// what friction takes comes back.
+/// A rigid bed cannot tell which of its springs hold that moment, so its energy is counted in addition: in a block that tumbles on its
+/// edges, a few 1e-5 of what friction takes comes back.
 void Shear::followCentroid(Real areaBefore, Real areaNow)
 {
 	const State &  state1 = pair_.state1, &state2 = pair_.state2;

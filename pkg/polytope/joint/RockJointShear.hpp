@@ -10,9 +10,9 @@
 
 /// Shear of a rock joint in one step: a bed of springs over the contact's outline, with the strength of each place (src/shear).
 ///
-/// Faces are rigid, so the bed's state is a force and a moment about the normal. While nothing slips the force acts at the area's centroid and the
-/// faces' turning about the normal meets k_s ρ², ρ the outline's radius of gyration. Slip takes what friction and cohesion at each place allow. A contact
-/// without an outline (polygons, spheres, a failed query) is a point: it has no moment.
+/// Faces are rigid, so the bed's state is a force and a moment about the normal. While nothing slips the force acts at the area's centroid
+/// and the faces' turning about the normal meets k_s ρ², ρ the outline's radius of gyration. Slip takes what friction and cohesion at each
+/// place allow. A contact without an outline (polygons, spheres, a failed query) is a point: it has no moment.
 namespace yade {
 
 class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Shear {

@@ -85,7 +85,8 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedPair {
 
 	DampedPair(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums);
 
-	/// The damper of this fraction of the critical one: for a spring and motion along a direction or, with `gyrationSquared`, for a moment about an axis.
+	/// The damper of this fraction of the critical one: for a spring and motion along a direction or, with `gyrationSquared`, for a moment
+	/// about an axis.
 	Real damper(Real fraction, Real stiffness, const Vector3r& direction, Real gyrationSquared = -1) const;
 };
 

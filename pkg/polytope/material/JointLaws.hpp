@@ -9,8 +9,8 @@
 
 #include "host/CheckedAttributes.hpp"
 
-/// Laws that a RockJointMat has in place of a linear spring and of Mohr-Coulomb strength: parameters as scripts see them. What a contact keeps of them is in
-/// joint/LawsOfJoint.hpp.
+/// Laws that a RockJointMat has in place of a linear spring and of Mohr-Coulomb strength: parameters as scripts see them. What a contact
+/// keeps of them is in joint/LawsOfJoint.hpp.
 namespace yade {
 
 class JointClosure : public Serializable {

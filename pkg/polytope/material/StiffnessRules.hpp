@@ -24,9 +24,9 @@ struct ContactStiffness {
 class GivesJointStiffness {
 public:
 	virtual ~GivesJointStiffness() = default;
-	/// The largest stiffnesses that a contact of these materials can have: of this area [m²], between bodies of these sizes [m] (PolytopeGeom's refR1, refR2).
-	/// PolytopeTimeStepper takes its step before the first contact from them. None: they are not known; then it takes elastic bodies of the materials' young,
-	/// and polytope.check() says so of functors that are not the plug-in's own or YADE's.
+	/// The largest stiffnesses that a contact of these materials can have: of this area [m²], between bodies of these sizes [m]
+	/// (PolytopeGeom's refR1, refR2). PolytopeTimeStepper takes its step before the first contact from them. None: they are not known; then it
+	/// takes elastic bodies of the materials' young, and polytope.check() says so of functors that are not the plug-in's own or YADE's.
 	virtual std::optional<ContactStiffness> stiffnesses(
 	        const Material& /*material1*/, const Material& /*material2*/, Real /*area*/, Real /*size1*/, Real /*size2*/) const
 	{

@@ -30,8 +30,8 @@ namespace {
 
 	bool hasVelocity(const State& state) { return state.vel != Vector3r::Zero() || state.angVel != Vector3r::Zero(); }
 
-	/// Whether degrees of freedom of a body have been freed or blocked since its box was made, or one that was still is moved. The parts of a clump are not told
-	/// that it is freed; in the step after they have its velocity.
+	/// Whether degrees of freedom of a body have been freed or blocked since its box was made, or one that was still is moved. The parts of a
+	/// clump are not told that it is freed; in the step after they have its velocity.
 	bool hasStarted(const BoxRoom::Reference& reference)
 	{
 		const State& state = *reference.state;

@@ -12,10 +12,11 @@ namespace yade {
 
 /// How far bodies may move within their boxes, and which of them have moved out.
 ///
-/// A box is made for the pose that its body has then. It has room for the body's translation, a sweep length along each axis, and, for a polytope, for
-/// rotation: the displacement of its farthest vertex. YADE's BoundDispatcher finds the sweep length from the motion since the last box was made, so that it is
-/// enough for `targetInterv` steps; the room for rotation is found in the same way. Shapes other than balls and polytopes, and classes derived from Polytope
-/// that do not say their margin, have no room to turn.
+/// A box is made for the pose that its body has then. It has room for the body's translation, a sweep length along each axis, and, for a
+/// polytope, for
+/// rotation: the displacement of its farthest vertex. YADE's BoundDispatcher finds the sweep length from the motion since the last box was
+/// made, so that it is enough for `targetInterv` steps; the room for rotation is found in the same way. Shapes other than balls and
+/// polytopes, and classes derived from Polytope that do not say their margin, have no room to turn.
 class BoxRoom {
 public:
 	/// What the box of one body was made for.
@@ -30,8 +31,8 @@ public:
 		std::shared_ptr<const polytope::ConvexShape> convex;
 		/// Degrees of freedom of the body that were blocked then: where others are now, it may touch what it did not (outside()).
 		unsigned blockedDOFs = 0;
-		/// Whether it was fixed, and whether it was so without velocity: pairs of such bodies are left out until one of them is freed, gets a velocity or is put
-		/// elsewhere.
+		/// Whether it was fixed, and whether it was so without velocity: pairs of such bodies are left out until one of them is freed, gets a
+		/// velocity or is put elsewhere.
 		bool fixed = false, still = false;
 	};
 
@@ -56,8 +57,8 @@ public:
 	void takeFromAll(const Scene& scene);
 	void take(const Scene& scene, const std::vector<Body::id_t>& ids);
 
-	/// Ids of bodies that are out of their boxes, freed, or no longer still, in ascending order; by translation, too: in periodic cells YADE's own collider looks for
-	/// those.
+	/// Ids of bodies that are out of their boxes, freed, or no longer still, in ascending order; by translation, too: in periodic cells YADE's
+	/// own collider looks for those.
 	std::vector<Body::id_t> outside(const Scene& scene, bool byTranslation) const;
 
 	/// Whether one of these bodies, or of all, was fixed when its box was made and no longer is.

@@ -11,22 +11,23 @@ namespace yade {
 
 /// Gives an Interaction to each pair of bodies that may touch while they are in their boxes, and takes it from those that may not.
 ///
-/// Boxes that overlap are found by a grid (BoxGrid.hpp), in parallel. When the grid of all boxes is made anew in a run, all pairs are put into the order of
-/// its cells: the InteractionLoop then meets neighbours one after the other, and has their bodies in the cache. The order is the same with any number of
-/// threads. When only some bodies have got new boxes, these bodies leave the grid of all for a second, smaller one, and only their pairs are searched for. When
-/// the second grid has become too large, the first is made anew.
+/// Boxes that overlap are found by a grid (BoxGrid.hpp), in parallel. When the grid of all boxes is made anew in a run, all pairs are put
+/// into the order of its cells: the InteractionLoop then meets neighbours one after the other, and has their bodies in the cache. The order
+/// is the same with any number of threads. When only some bodies have got new boxes, these bodies leave the grid of all for a second,
+/// smaller one, and only their pairs are searched for. When the second grid has become too large, the first is made anew.
 ///
-/// Where the boxes of two polytopes overlap, the linear program finds whether they stay apart as long as both are in their boxes: such a pair gets no
-/// Interaction, which would cost memory, and time in each step. Two fixed polytopes without velocity that are apart or lie flush, such as pieces of a ground,
-/// get none either, nor do two of YADE's facets, boxes and walls, whether a script moves them or not. Two fixed polytopes that pierce each other do get one,
-/// so that a script can look at their contact. A piece of a rigid support (a fixed body, a member of a clump) and a body that moves always have
+/// Where the boxes of two polytopes overlap, the linear program finds whether they stay apart as long as both are in their boxes: such a
+/// pair gets no Interaction, which would cost memory, and time in each step. Two fixed polytopes without velocity that are apart or lie
+/// flush, such as pieces of a ground, get none either, nor do two of YADE's facets, boxes and walls, whether a script moves them or not.
+/// Two fixed polytopes that pierce each other do get one, so that a script can look at their contact. A piece of a rigid support (a fixed
+/// body, a member of a clump) and a body that moves always have
 /// theirs: internal faces are searched for among the pieces that a body may touch.
 class PairSearch {
 public:
 	explicit PairSearch(const BoxRoom& room) : room_(room) { }
 
-	/// Finds the pairs of all bodies. `judge`: by the linear program, too. `sort`: unless contacts shall keep the order that they were saved in, and with it the
-	/// last digits of sums.
+	/// Finds the pairs of all bodies. `judge`: by the linear program, too. `sort`: unless contacts shall keep the order that they were saved
+	/// in, and with it the last digits of sums.
 	void ofAll(Scene& scene, Collider& collider, bool judge, bool sort);
 	/// Finds the pairs of these bodies, whose boxes are new.
 	void ofSome(Scene& scene, Collider& collider, const std::vector<Body::id_t>& ids);

@@ -2,6 +2,7 @@
 #include "python/PairContact.hpp"
 
 #include "contact/Ig2_Polytope_Polytope_PolytopeGeom.hpp"
+#include "material/RockJointMat.hpp"
 #include "material/StiffnessRules.hpp"
 #include "shape/Polytope.hpp"
 
@@ -111,27 +112,24 @@ void definePairContact()
 	        .add_property("inContact", &field<bool, &ContactResult::inContact>, "Whether the bodies touch: s* < −tolerance.")
 	        .add_property("status", &Contact::status, "As :yref:`PolytopeGeom.status`.")
 	        .add_property("infeasibility", &field<Real, &ContactResult::infeasibility>,
-	                "Optimum s* of the phase-one linear program [m] (Boon et al. 2012, Eq. 9): minus the radius of the largest ball "
-	                "in the overlap.")
+	                "Optimum s* of the phase-one linear program [m] (Boon et al. 2012, Eq. 9): minus the radius of the largest ball in "
+	                "the overlap.")
 	        .add_property(
 	                "point", +[](const Contact& c) { return c.point; },
 	                "Contact point, world coordinates [m]: on the line of action of the surface's pressure; boon2012: the analytic "
-	                "centre "
-	                "of all half-spaces (Eq. 10), across a gap of both bodies grown until they just overlap.")
+	                "centre of all half-spaces (Eq. 10), across a gap of both bodies grown until they just overlap.")
 	        .add_property("normal", &field<Vector3r, &ContactResult::normal>,
 	                "Unit contact normal from b1 to b2, the direction of the force; boon2012: Eqs 13-17.")
 	        .add_property("depth", &field<Real, &ContactResult::depth>,
 	                "Force over stiffness (foundation: over stiffness and area), positive in overlap [m]; boon2012: the chord along "
-	                "the normal "
-	                "through the point.")
+	                "the normal through the point.")
 	        .add_property("energyPerStiffness", &field<Real, &ContactResult::energy>,
 	                "Models foundation and spring: elastic energy over the normal stiffness [m²], foundation's per area.")
 	        .add_property("turningArm", &field<Real, &ContactResult::turningArm>,
 	                "Models foundation and spring: moment about the normal that a force at the point leaves out, over that force [m].")
 	        .add_property("area", &field<Real, &ContactResult::area>,
 	                "Area of the contact surface seen along the normal [m²], boon2012: of the section through the point; polygons: "
-	                "length "
-	                "times thickness.")
+	                "length times thickness.")
 	        .add_property(
 	                "sectionCentroid", +[](const Contact& c) { return c.sectionCentroid; },
 	                "Centroid of the contact section, world coordinates [m].")
@@ -147,15 +145,13 @@ void definePairContact()
 	                py::arg("newtonTolerance") = py::object(), py::arg("solver") = py::object(),
 	                py::arg("contactModel") = py::object()),
 	        "Contact of two bodies with Polytope shapes at their present poses, in the scene or not: that which they have with the "
-	        "scene's "
-	        "settings, but for what is given here (periodic images are not searched).\n\n"
+	        "scene's settings, but for what is given here (periodic images are not searched).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
 	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel: as on "
 	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`; default those of the scene's, without engines its defaults\n"
 	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, "
-	        "newtonIterations, "
-	        "ipoptIterations, simplexPivots\n"
+	        "newtonIterations, ipoptIterations, simplexPivots\n"
 	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, contactModel or solver, "
 	        "solver 'ipopt' in a build without, tolerances out of range");
 }

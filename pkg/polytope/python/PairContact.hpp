@@ -3,7 +3,8 @@
 
 namespace yade {
 
-/// Defines `contact` in yade._polytope, and the class of what it returns (for PythonModule.cpp): the contact of two bodies as they are, without a scene.
+/// Defines `contact` in yade._polytope, and the class of what it returns (for PythonModule.cpp): the contact of two bodies as they are,
+/// without a scene.
 void definePairContact();
 
 } // namespace yade

@@ -3,16 +3,6 @@
 
 namespace yade {
 
-polytope::HalfSpaces halfSpacesOf(const Box& box)
-{
-	polytope::HalfSpaces planes;
-	forPlanesOf(box, [&](int axis, int sign, const Real& offset) {
-		planes.normals.push_back(sign * Vector3r::Unit(axis));
-		planes.offsets.push_back(offset);
-	});
-	return planes;
-}
-
 bool isMadeOf(const polytope::ConvexShape& solid, const Box& box)
 {
 	const auto& offsets = solid.planes().offsets;
@@ -44,7 +34,7 @@ namespace {
 		void addSupport(const Shape& shape, const Placing& placing, Solid& solid) const override
 		{
 			if (!(placing.centre.norm() < boundingRadius(shape) + placing.near)) return;
-			forPlanesOf(static_cast<const Box&>(shape), [&](int axis, int sign, const Real& offset) {
+			polytope::forPlanesOfCuboid(halfOf(shape), [&](int axis, int sign, const Real& offset) {
 				const Vector3r normal = sign * placing.rotation.col(axis);
 				solid.planes.push_back({ normal, offset + normal.dot(placing.centre) });
 			});
@@ -58,7 +48,7 @@ namespace {
 				faces.vertices.push_back(Vector3r(corner & 4 ? 1 : -1, corner & 2 ? 1 : -1, corner & 1 ? 1 : -1)
 				                .cwiseProduct(halfOf(shape)));
 			faces.faces = { { 0, 1, 3, 2 }, { 4, 6, 7, 5 }, { 0, 4, 5, 1 }, { 2, 3, 7, 6 }, { 0, 2, 6, 4 }, { 1, 5, 7, 3 } };
-			faces.planeOfFace = { 0, 1, 2, 3, 4, 5 };
+			faces.planeOfFace = { 1, 0, 3, 2, 5, 4 };
 			return std::make_shared<const polytope::Polyhedron>(std::move(faces));
 		}
 	};

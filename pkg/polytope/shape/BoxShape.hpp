@@ -10,16 +10,8 @@
 /// YADE's box as half-spaces.
 namespace yade {
 
-/// Calls visit(axis, sign, offset) for its six half-spaces: −x, x, −y, y, −z, z of its own axes.
-template <class Visit> void forPlanesOf(const Box& box, const Visit& visit)
-{
-	for (int axis = 0; axis < 3; ++axis)
-		for (int sign = -1; sign <= 1; sign += 2)
-			visit(axis, sign, box.extents[axis]);
-}
-
-/// In its own axes, in that order.
-polytope::HalfSpaces halfSpacesOf(const Box& box);
+/// In its own axes.
+inline polytope::HalfSpaces halfSpacesOf(const Box& box) { return polytope::cuboid(box.extents); }
 
 /// Whether these are a solid's.
 bool isMadeOf(const polytope::ConvexShape& solid, const Box& box);

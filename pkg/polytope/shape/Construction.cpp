@@ -11,9 +11,9 @@
 #include <core/Material.hpp>
 #include <core/State.hpp>
 
+#include <src/cutting/UnionOfParts.hpp>
 #include <src/shape/RegularSolids.hpp>
 #include <src/shape/ShapeFactory.hpp>
-#include <src/shape/UnionOfParts.hpp>
 
 #include <boost/python.hpp>
 
@@ -57,13 +57,7 @@ namespace {
 	CentralShape ofCuboid(const Vector3r& half, const py::object& cornerRadius, Real cornerFraction)
 	{
 		if (!(half.minCoeff() > 0)) throw std::invalid_argument("extents: half-lengths must be positive");
-		HalfSpaces planes;
-		for (int k = 0; k < 3; ++k)
-			for (int sign = 1; sign >= -1; sign -= 2) {
-				planes.normals.push_back(sign * Vector3r::Unit(k));
-				planes.offsets.push_back(half[k]);
-			}
-		return polytope::centralShape(planes, options(1, true, cornerRadius, cornerFraction));
+		return polytope::centralShape(polytope::cuboid(half), options(1, true, cornerRadius, cornerFraction));
 	}
 
 	/// Shape, mass, degrees of freedom; the state's place is the caller's.

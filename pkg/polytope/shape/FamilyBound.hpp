@@ -6,8 +6,8 @@
 /// Boxes of bodies whose family says how far they reach.
 namespace yade {
 
-/// Box of the ball about the body's centre that holds it (ShapeFamily::boundingRadius): no rotation leads out of it. An extension makes a functor for its class of it by
-/// YADE_POLYTOPE_BALL_BOUND.
+/// Box of the ball about the body's centre that holds it (ShapeFamily::boundingRadius): no rotation leads out of it. An extension makes a
+/// functor for its class of it by YADE_POLYTOPE_BALL_BOUND.
 class PolytopeFamilyBound : public BoundFunctor {
 public:
 	void go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*) override;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What jointedRock.py and rock/ of py/polytope call: a rock mass cut into blocks, areas of joints. Arrays of doubles and of 32-bit integers go back as
-// bytes, as NumPy reads them.
+// What jointedRock.py and rock/ of py/polytope call: a rock mass cut into blocks, areas of joints. Arrays of doubles and of 32-bit integers
+// go back as bytes, as NumPy reads them.
 #include "shape/Construction.hpp"
 
 #include "host/Vectors.hpp"
 
-#include <src/shape/JointAreas.hpp>
-#include <src/shape/JointedBlocks.hpp>
+#include <src/cutting/JointAreas.hpp>
+#include <src/cutting/JointedBlocks.hpp>
 
 #include <boost/python.hpp>
 

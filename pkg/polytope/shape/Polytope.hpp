@@ -39,14 +39,14 @@ public:
 	/// Null until planes are given.
 	const std::shared_ptr<const polytope::ConvexShape>& convex() const { return convex_; }
 
-	/// How far the surface lies outside of the planes, everywhere [m]: 0 for this class; a class derived from it that is its planes and a ball, as rounded
-	/// polyhedra are, returns the ball's radius. Boxes, sizes and PolytopeCollider, which leaves out pairs by their planes, add it. Without a value: the surface
-	/// is not known by the planes, as that of a derived class that does not say; then no pair is left out by them, and the class has a bound functor of its
-	/// own.
+	/// How far the surface lies outside of the planes, everywhere [m]: 0 for this class; a class derived from it that is its planes and a
+	/// ball, as rounded polyhedra are, returns the ball's radius. Boxes, sizes and PolytopeCollider, which leaves out pairs by their planes,
+	/// add it. Without a value: the surface is not known by the planes, as that of a derived class that does not say; then no pair is left out
+	/// by them, and the class has a bound functor of its own.
 	virtual std::optional<Real> margin() const;
 
-	/// Mass properties for unit density, in the body's frame, whose origin and axes they must be. This class gives those of the planes, with a margin those
-	/// of the planes and a ball (RoundedSolid.hpp).
+	/// Mass properties for unit density, in the body's frame, whose origin and axes they must be. This class gives those of the planes, with a
+	/// margin those of the planes and a ball (RoundedSolid.hpp).
 	virtual polytope::MassProperties massProperties() const;
 
 	/// Faces to be drawn, in the body's frame. This class gives those of the planes, with a margin those of the planes and a ball. Null until planes are

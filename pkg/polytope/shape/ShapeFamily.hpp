@@ -16,15 +16,15 @@
 
 /// What the stages of a simulation ask of a shape, whatever its class: one object for each class of shapes, registered once.
 ///
-/// Sphere, Box, Facet, Wall and Polytope have theirs. A class without one of its own has that of the nearest of its bases that has, as functors are found. A class
-/// derived from Polytope overrides functions of Polytope in place of it: margin(), and massProperties() and surface() where these do not follow from the margin. A
-/// class of another base has a family, and
+/// Sphere, Box, Facet, Wall and Polytope have theirs. A class without one of its own has that of the nearest of its bases that has, as
+/// functors are found. A class derived from Polytope overrides functions of Polytope in place of it: margin(), and massProperties() and
+/// surface() where these do not follow from the margin. A class of another base has a family, and
 ///
 ///     const FamilyOf<MyShape, MyFamily> family; // in the library that has MyShape, at namespace level
 ///
-/// The functions of this class itself answer for a shape about which nothing is known. They are called by several threads at once, and must not throw. Not
-/// asked here are other contacts, which have functors for each pair of classes, and boxes, which have bound functors (FamilyBound.hpp has one by the bounding
-/// radius).
+/// The functions of this class itself answer for a shape about which nothing is known. They are called by several threads at once, and must
+/// not throw. Not asked here are other contacts, which have functors for each pair of classes, and boxes, which have bound functors
+/// (FamilyBound.hpp has one by the bounding radius).
 namespace yade {
 
 using Planes = std::vector<polytope::Plane>; ///< world axes
@@ -83,20 +83,21 @@ public:
 	/// Enlarges a box by the body as it stands [m]. This class does it by the ball of the bounding radius.
 	virtual void extend(const Shape& shape, const State& state, Vector3r& low, Vector3r& high) const;
 
-	/// Appends its half-spaces as a piece of a support, as the other body meets it; none: it is not seen as one, so that what slides over several such bodies
-	/// meets each alone.
+	/// Appends its half-spaces as a piece of a support, as the other body meets it; none: it is not seen as one, so that what slides over
+	/// several such bodies meets each alone.
 	virtual void addSupport(const Shape&, const Placing&, Solid&) const { }
 
-	/// What a PolytopeMarginFunctor (contact/MarginContact.hpp) meets, of a body in this place whose partner's centre is at `other`; none: it has no contact by it.
+	/// What a PolytopeMarginFunctor (contact/MarginContact.hpp) meets, of a body in this place whose partner's centre is at `other`; none: it
+	/// has no contact by it.
 	virtual std::optional<CoreOfBody> core(
 	        const Shape&, const Vector3r& /*position*/, const Quaternionr& /*orientation*/, const Vector3r& /*other*/) const
 	{
 		return std::nullopt;
 	}
 
-	/// Adds a contact's force [N], which acts at a place of the body, to what the scene sums for each body. This class adds it to the body, with its torque
-	/// about the body's centre; the family of a body that others carry, as nodes do a beam, adds it to these. Laws ask it by addContactForce()
-	/// (contact/ContactForce.hpp); those of the plug-in and YADE's do not.
+	/// Adds a contact's force [N], which acts at a place of the body, to what the scene sums for each body. This class adds it to the body,
+	/// with its torque about the body's centre; the family of a body that others carry, as nodes do a beam, adds it to these. Laws ask it by
+	/// addContactForce() (contact/ContactForce.hpp); those of the plug-in and YADE's do not.
 	virtual void addForce(const Body& body, const Vector3r& place, const Vector3r& force, ForceContainer& forces) const;
 
 	/// Faces to be drawn, in its own axes; null: none.
@@ -106,7 +107,8 @@ public:
 /// The family that is registered for this class, or for the nearest of its bases that has one.
 const ShapeFamily& familyOf(const Shape& shape);
 
-/// Why what its family says of a shape is no size: a radius or a margin that is no number or negative; empty: nothing. Stages ask for sizes in parallel, and take what they get.
+/// Why what its family says of a shape is no size: a radius or a margin that is no number or negative; empty: nothing. Stages ask for sizes
+/// in parallel, and take what they get.
 std::string faultOfFamily(const Shape& shape);
 
 /// Registers a family; to be called before a scene has such a shape. \param classIndex YADE's, Shape::getClassIndex()

@@ -24,8 +24,8 @@ namespace {
 		return sum;
 	}
 
-	/// A number that is another one where other bodies are moved by forces: bodies may be fixed and freed. On several processes always 0: there bodies come
-	/// and go, and all take their time step together.
+	/// A number that is another one where other bodies are moved by forces: bodies may be fixed and freed. On several processes always 0:
+	/// there bodies come and go, and all take their time step together.
 	std::size_t moversOf(const Scene& scene)
 	{
 		std::size_t number = 0;
@@ -35,8 +35,8 @@ namespace {
 		return number;
 	}
 
-	/// In a scene in which nothing can move: the time for which engines wait that may put bodies into it. The collider calls the time stepper before these
-	/// move (PolytopeCollider); with another one the step stays as it is.
+	/// In a scene in which nothing can move: the time for which engines wait that may put bodies into it. The collider calls the time stepper
+	/// before these move (PolytopeCollider); with another one the step stays as it is.
 	TimeStepLimit periodLimit(const Scene& scene)
 	{
 		TimeStepLimit limit;

@@ -11,8 +11,8 @@ namespace yade {
 
 class PolytopeTimeStepper : public TimeStepper, public FindsTimeStep {
 public:
-	/// Active in steps that are multiples of the interval, where a joint has stiffened (JointClosure), in its first step, when bodies, bonds or bolts were added, and when the one that limits the time step
-	/// was erased.
+	/// Active in steps that are multiples of the interval, where a joint has stiffened (JointClosure), in its first step, when bodies, bonds
+	/// or bolts were added, and when the one that limits the time step was erased.
 	bool isActivated() override;
 	void computeTimeStep(Scene* ofScene) override;
 	bool knowsNotAll(const Scene& ofScene, bool freed) const override

@@ -19,7 +19,8 @@ struct TimeStepLimit {
 	Real       step = std::numeric_limits<Real>::infinity();
 	Body::id_t body = Body::ID_NONE;
 
-	/// Takes a step if it is shorter; of equal steps that of the lower id, whatever the order. Steps that are not a number, or not above 0, are left out.
+	/// Takes a step if it is shorter; of equal steps that of the lower id, whatever the order. Steps that are not a number, or not above 0,
+	/// are left out.
 	void take(Real other, Body::id_t id)
 	{
 		if (!(other > 0 && other < std::numeric_limits<Real>::infinity())) return;

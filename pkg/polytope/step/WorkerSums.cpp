@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Sums of stiffness in a run on several processes (py/polytope/mpi): a worker knows all contacts of its own bodies alone, and the dampers of a contact
-// need the sums of both of its bodies.
+// Sums of stiffness in a run on several processes (py/polytope/mpi): a worker knows all contacts of its own bodies alone, and the dampers
+// of a contact need the sums of both of its bodies.
 #include "step/WorkerSums.hpp"
 
 #include <core/Omega.hpp>

@@ -24,8 +24,8 @@ from ..strengthReduction import divideStrengths, strengths
 from .bracket import Bracket
 from .faceMaterials import materialsOf
 from .failure import Failure, inMode, noMode, told
-from .history import histories
 from .motion import Motion
+from .pointHistories import histories
 
 __all__ = ['FactorOfSafety', 'Trial', 'factorOfSafety']
 

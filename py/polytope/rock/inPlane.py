@@ -12,8 +12,8 @@ import numpy as np
 import scipy
 
 from .joint import Cut, upwardNormal
+from .jointRadii import radiiOf
 from .jointSets import JointSet
-from .radii import radiiOf
 
 __all__ = ['asPrisms', 'asSegment', 'expectedInPlane', 'flatCut', 'flatSet', 'outlinesOf']
 

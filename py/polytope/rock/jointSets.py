@@ -9,7 +9,7 @@ import scipy  # loads its packages at their first use: half a second
 
 from ..arguments import flag, point
 from .joint import Cut, areasOf, checkedAngles, finite, inSpace, positive, upwardNormal
-from .radii import radiiOf
+from .jointRadii import radiiOf
 
 __all__ = ['JointSet']
 

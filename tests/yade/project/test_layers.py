@@ -71,7 +71,21 @@ def testTheCoreKnowsNothingAboveIt():
 			assert not (project / 'pkg/polytope' / name).is_file() or name in own, f'{path.name} includes {name} of pkg'
 
 
-folders = 'numbers', 'program', 'shape', 'centre', 'shear', 'joint', 'surface', 'contact', 'timestep', 'bond', 'bolt', 'neighbours'
+folders = (
+	'numbers',
+	'program',
+	'shape',
+	'cutting',
+	'centre',
+	'shear',
+	'joint',
+	'surface',
+	'contact',
+	'timestep',
+	'bond',
+	'bolt',
+	'neighbours',
+)
 """Folders of src, in this order."""
 
 
@@ -86,11 +100,11 @@ def testEachFolderOfTheCoreIncludesToTheLeftOnly():
 
 
 def reachedFrom(folder):
-	"""For each header the headers of the folder that it includes, through others, too."""
+	"""For each file of a folder the folder's headers that it includes, through others, too."""
 	place = {path.name: path for path in files(project / folder, '.hpp')}
 	within = {
 		path: {place[name] for name in map(lambda name: pathlib.Path(name).name, includes(path)) if name in place}
-		for path in place.values()
+		for path in files(project / folder, '.hpp', '.cpp')
 	}
 	reachedBy = {}
 	for path in within:
@@ -118,6 +132,28 @@ def testAFunctorKnowsTheClassesThatItIsOf():
 				made += len(ownHeader)
 				assert path in ownHeader or set(ownHeader) <= reached, f'{path.name} does not include {name}.hpp'
 	assert made > 5
+
+
+def withoutCommentsAndTexts(path):
+	return re.sub(r'//.*', '', re.sub(r'"(?:\\.|[^"\\])*"', '""', path.read_text()))
+
+
+def testAFileIncludesTheFunctionsThatItCalls():
+	"""Those that stand outside classes; where all files are compiled as one a missing header is not noticed."""
+	code = {path: withoutCommentsAndTexts(path) for path in files(project / 'pkg/polytope', '.hpp', '.cpp')}
+	declaredIn = {}
+	for path, text in code.items():
+		if path.suffix == '.hpp':
+			for name in re.findall(r'^(?![\t#}])[^\n=]*?\b([a-z]\w+)\(', text, re.MULTILINE):
+				declaredIn.setdefault(name, set()).add(path)
+	del declaredIn['decltype']
+	assert len(declaredIn) > 50
+	reachedBy = reachedFrom('pkg/polytope')
+	for path, text in code.items():
+		reached = {path} | reachedBy[path]
+		for name in set(re.findall(r'(?:(?<![.>:\w])|(?<=yade::))(\w+)\(', text)) & set(declaredIn):
+			member = any(re.search(rf'(?<!return)[\w>&*] [*&]?{name}\(', code[one]) for one in reached)
+			assert member or declaredIn[name] & reached, f'{path.name} calls {name}() of {sorted(one.name for one in declaredIn[name])}'
 
 
 rooms = 'host', 'material', 'shape', 'pairs', 'bond', 'bolt', 'contact', 'joint', 'bonding', 'step', 'loads', 'output', 'python'

@@ -18,7 +18,7 @@ from yade import (
 	polytope,
 )
 from yade.polytope.measures.energy import storedEnergy
-from yade.polytope.rock.history import histories
+from yade.polytope.rock.pointHistories import histories
 from yade.polytope.scene.relaxing import relaxing
 
 gravity, density, kn, ks = 9.81, 2600, 1e9, 5e8

@@ -8,7 +8,7 @@ import pytest
 from yade import O, RockJointMat, polytope
 from yade.polytope import Joint, JointSet
 from yade.polytope.rock.joint import anglesOf
-from yade.polytope.rock.radii import radiiOf
+from yade.polytope.rock.jointRadii import radiiOf
 from yade.polytope.rock.region import regionOf
 from yade.polytope.rock.termination import Earlier
 

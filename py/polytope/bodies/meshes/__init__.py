@@ -9,11 +9,11 @@ from yade import Vector3, _polytope
 from ...arguments import positive, rotation, vector, vectors, warn
 from ..clumps import union
 from ..polytopes import bodyOf, builder, ofOneColour
+from .closedPieces import piecesOf
 from .convexParts import cut
 from .digits import remedy, warnOfRounding
 from .facets import facets
 from .files import readMesh
-from .pieces import piecesOf
 
 __all__ = ['facets', 'fromMesh']
 

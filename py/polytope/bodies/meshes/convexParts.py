@@ -7,7 +7,7 @@ import hashlib
 import numpy as np
 from tqdm import tqdm
 
-from .pieces import piecesOf
+from .closedPieces import piecesOf
 
 __all__ = ['Cuts', 'cut']
 

@@ -11,8 +11,8 @@ from ...bonding.bolting import madeBolts
 from ...bonding.bonds import bonds, madeBonds
 from ...scene.movers import partsOf
 from ...scene.permanentLoads import permanentLoads
-from ..history import followParts
 from ..jointsOfFaces import replaceInRocks
+from ..pointHistories import followParts
 
 __all__ = ['refuseUnknown', 'takeOver']
 

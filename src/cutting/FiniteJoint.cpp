@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/FiniteJoint.hpp"
+#include "cutting/FiniteJoint.hpp"
 
 #include "shape/Rings.hpp"
 

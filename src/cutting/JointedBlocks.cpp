@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/JointedBlocks.hpp"
+#include "cutting/JointedBlocks.hpp"
 
+#include "cutting/RockBridges.hpp"
 #include "shape/CheckedNumbers.hpp"
 #include "shape/ConstructionTolerances.hpp"
-#include "shape/RockBridges.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -35,8 +35,8 @@ Polygon commonPart(Polygon first, const Polygon& second, const Vector3& normal);
 /// Area that a joint and a convex polygon in its plane have in common, exact to rounding. The polygon may run either way.
 Real areaWithin(const FiniteJoint& joint, Polygon polygon);
 
-/// Area of a convex polygon that none of these joints covers, all in its plane with this normal. Exact for one joint, and for polygons; where several overlap, a disc
-/// counts as the regular polygon of construction::discSides sides about it.
+/// Area of a convex polygon that none of these joints covers, all in its plane with this normal. Exact for one joint, and for polygons;
+/// where several overlap, a disc counts as the regular polygon of construction::discSides sides about it.
 Real uncovered(const Polygon& polygon, const Vector3& normal, const std::vector<const FiniteJoint*>& joints);
 
 } // namespace polytope

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "shape/CutTree.hpp"
-#include "shape/FiniteJoint.hpp"
+#include "cutting/CutTree.hpp"
+#include "cutting/FiniteJoint.hpp"
 
 #include <vector>
 
-/// Which blocks of a cut region are one body, since rock goes on from one to the other: a joint ends inside their common face, or, where two regions meet,
-/// there is none.
+/// Which blocks of a cut region are one body, since rock goes on from one to the other: a joint ends inside their common face, or, where
+/// two regions meet, there is none.
 namespace polytope {
 
 struct JointedPlanes {

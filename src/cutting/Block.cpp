@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/Block.hpp"
+#include "cutting/Block.hpp"
 
 #include "shape/InscribedBall.hpp"
 #include "shape/PlaneMeeting.hpp"

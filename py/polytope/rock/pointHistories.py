@@ -15,7 +15,7 @@ from ..scene.movers import canMove, moverOf, partsOf
 
 __all__ = ['followParts', 'histories', 'history', 'record']
 
-module = "__import__('yade.polytope.rock.history', fromlist=['record']).record"
+module = "__import__('yade.polytope.rock.pointHistories', fromlist=['record']).record"
 """A call that leaves no name among the script's own."""
 axes = 'xyz'
 components = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))

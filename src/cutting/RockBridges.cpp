@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/RockBridges.hpp"
+#include "cutting/RockBridges.hpp"
 
 #include "shape/CheckedNumbers.hpp"
 #include "shape/ConstructionTolerances.hpp"

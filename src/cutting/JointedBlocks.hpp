@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "shape/Block.hpp"
-#include "shape/FiniteJoint.hpp"
+#include "cutting/Block.hpp"
+#include "cutting/FiniteJoint.hpp"
 
 #include <cstdint>
 
@@ -34,9 +34,9 @@ struct JointedBlocks {
 	std::size_t        boxes = 0;      ///< visited in the tree, for all joints together
 };
 
-/// Convex regions, which must not overlap, cut by joints one after the other. A joint that passes no farther inside a block than construction::touching follows a
-/// face or a corner and does not cut, nor does one that covers no more of a block's section. About the regions' middle numbers should be small: give them
-/// about it. Refuses what polyhedron() refuses of a region.
+/// Convex regions, which must not overlap, cut by joints one after the other. A joint that passes no farther inside a block than
+/// construction::touching follows a face or a corner and does not cut, nor does one that covers no more of a block's section. About the
+/// regions' middle numbers should be small: give them about it. Refuses what polyhedron() refuses of a region.
 JointedBlocks cutByJoints(const std::vector<HalfSpaces>& regions, const std::vector<FiniteJoint>& joints, const Cutting& how);
 
 } // namespace polytope

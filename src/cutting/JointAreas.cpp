@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/JointAreas.hpp"
+#include "cutting/JointAreas.hpp"
 
 #include "shape/ShapeConstruction.hpp"
 

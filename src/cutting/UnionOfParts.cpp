@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/UnionOfParts.hpp"
+#include "cutting/UnionOfParts.hpp"
 
-#include "shape/Block.hpp"
+#include "cutting/Block.hpp"
 #include "shape/CheckedNumbers.hpp"
 #include "shape/ConstructionTolerances.hpp"
 #include "shape/SolidMoments.hpp"

@@ -34,11 +34,11 @@ struct Block {
 /// The block that these planes bound, by exact construction; `which`: their indices in `all`. Refuses what polyhedron() refuses.
 Block blockOf(const std::vector<Plane>& all, const std::vector<int>& which);
 
-/// Both parts of a block that all[cut] passes through (corners farther than `on` from it on both sides): `inner`, where it is
-/// fulfilled, with all[cut] as a plane, and the rest with all[cut + 1], which is to be all[cut] turned round. Corners within `on` of the
-/// plane are on it: take several roundings of the largest coordinate, so that it decides the same for all faces at a corner.
-/// The new corners of both are the same points. Where their surfaces do not close, both are blockOf() their planes; false where one of them is too flat to have
-/// an inside.
+/// Both parts of a block that all[cut] passes through (corners farther than `on` from it on both sides): `inner`, where it is fulfilled,
+/// with all[cut] as a plane, and the rest with all[cut + 1], which is to be all[cut] turned round. Corners within `on` of the plane are on
+/// it: take several roundings of the largest coordinate, so that it decides the same for all faces at a corner. The new corners of both are
+/// the same points. Where their surfaces do not close, both are blockOf() their planes; false where one of them is too flat to have an
+/// inside.
 bool cutBlock(const Block& block, const std::vector<Plane>& all, int cut, const Real& on, Block& inner, Block& outer);
 
 } // namespace polytope

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "shape/FiniteJoint.hpp"
+#include "cutting/FiniteJoint.hpp"
 
 /// How much of joints lies inside a region: their area, by which the density of a joint network is measured (P32).
 namespace polytope {

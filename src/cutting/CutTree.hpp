@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "shape/Block.hpp"
+#include "cutting/Block.hpp"
 
 /// The cuts made so far, as trees: one for each region.
 namespace polytope {

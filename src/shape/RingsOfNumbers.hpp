@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "numbers/Rotation.hpp"
+
+/// Plane convex polygons in memory that is there already. For code that is compiled for several instruction sets, which must not emit
+/// Eigen's functions nor take memory; elsewhere Rings.hpp.
+namespace polytope {
+
+/// What of a ring lies where a linear function of the place is not negative.
+/// \param corner corner(k, uv): the ring's k-th of `count`
+/// \param height height(k, uv): the function there
+/// \param put    put(k, uv): the k-th of what is kept
+/// \returns how many are kept
+template <class R, class Corner, class Height, class Put>
+POLYTOPE_INLINE int keepAbove(int count, const Corner& corner, const Height& height, const Put& put)
+{
+	int kept = 0;
+	R   last[2];
+	corner(count - 1, last);
+	R before = height(count - 1, last);
+	for (int k = 0; k < count; ++k) {
+		R uv[2];
+		corner(k, uv);
+		const R here = height(k, uv);
+		if ((here >= 0) != (before >= 0)) {
+			const R part        = before / (before - here);
+			const R crossing[2] = { last[0] + part * (uv[0] - last[0]), last[1] + part * (uv[1] - last[1]) };
+			put(kept++, crossing);
+		}
+		if (here >= 0) put(kept++, uv);
+		last[0] = uv[0];
+		last[1] = uv[1];
+		before  = here;
+	}
+	return kept;
+}
+
+} // namespace polytope
