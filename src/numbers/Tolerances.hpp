@@ -178,9 +178,13 @@ constexpr Real direction = 64 * rounding;
 /// under the edge of an inclined joint begins, the face above it is that near as soon as its force is a thousandth of the contact's.
 constexpr Real nearLeverage = 1e-6;
 
-/// × the larger body's circumradius: faces of two pieces count as one face if one is not higher than this, or than the
-/// overlap's ball is thick. What rounding of poses leaves of pieces that lie flush.
+/// × the larger body's circumradius: faces of two pieces count as one face if one is not higher than this. What rounding of poses leaves of
+/// pieces that lie flush.
 constexpr Real flush = 1e-9;
+
+/// × radius of the overlap's ball: nor if it is higher than this, a fortieth of the depth of a face on a face. What digits of a file or settling
+/// leave of pieces that are meant to lie flush; a higher step lifts a body, and so has to take its share of the body's speed.
+constexpr Real flushOfDepth = 0.05;
 
 /// × largest coordinate of two bodies: what rounding of their places and of their planes there leaves of an overlap where they lie flush.
 constexpr Real flushPlaces = 8 * rounding;

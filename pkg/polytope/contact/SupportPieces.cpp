@@ -27,7 +27,7 @@ bool contains(const Planes& planes, const Vector3r& point, const Real& room)
 Real flushStep(const TouchingPair& pair)
 {
 	const Real larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
-	return math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
+	return math::max(Real(polytope::tolerance::flushOfDepth) * pair.ball, Real(polytope::tolerance::flush) * larger);
 }
 
 } // namespace yade

@@ -3,7 +3,8 @@
 
 import itertools
 
-from yade import PolytopeGeom, RockJointPhys
+import numpy as np
+from yade import FrictPhys, Polytope, PolytopeGeom, RockJointPhys
 
 from ..scene.present import geometryFunctors
 
@@ -13,6 +14,8 @@ answers = ('separated', 'contact', 'normalFromOneBody', 'normalFromDual', 'round
 """Statuses of queries that have one."""
 sameFace = 1 - 1e-6
 """Cosine between normals of two contacts of one face."""
+bornByFriction, bornByPressure = 0.5, 0.1
+"""Of a body's weight: what friction bears at least, and pressure at most, where friction alone holds it up. On a slope pressure bears its part."""
 
 
 def contactFindings(scene):
@@ -20,6 +23,7 @@ def contactFindings(scene):
 	if scene.ownEngines:
 		yield from failures(scene)
 		yield from severalPieces(scene)
+		yield from heldByFriction(scene)
 
 
 def failures(scene):
@@ -64,3 +68,30 @@ def _oneFace(one, other):
 	"""Whether both contacts lie in one plane, to within an overlap."""
 	along, depth = one.normal.dot(other.normal), min(one.penetrationDepth, other.penetrationDepth)
 	return abs(along) > sameFace and abs(one.normal.dot(other.contactPoint - one.contactPoint)) < depth
+
+
+def heldByFriction(scene):
+	"""Polyhedra between faces that do not lie under them, with laws of YADE's own: friction at one point of a face has no moment about it."""
+	if scene.down is None:
+		return
+	borne = {}
+	for one in scene.O.interactions:
+		if not (one.isReal and isinstance(one.geom, PolytopeGeom) and isinstance(one.phys, FrictPhys)) or isinstance(
+			one.phys, RockJointPhys
+		):
+			continue
+		for key, sign in ((one.id1, -1), (one.id2, 1)):
+			body = scene.O.bodies[key]
+			if isinstance(body.shape, Polytope) and body.shape.dimension == 3 and scene.moves(body):
+				forces = np.array([one.phys.normalForce, one.phys.shearForce], float)
+				borne[key] = borne.get(key, 0) - sign * forces @ scene.down
+	weight = {key: scene.gravity() * float(scene.O.bodies[key].state.mass) for key in borne}
+	held = [
+		key
+		for key, (pressure, friction) in borne.items()
+		if friction > bornByFriction * weight[key] and pressure < bornByPressure * weight[key]
+	]
+	if held:
+		seen = f'body {held[0]}' + (f' and {len(held) - 1} more are' if held[1:] else ' is') + ' held by friction between faces, '
+		seen += 'which the scene\'s law puts at one point of each: in space such a body turns about these points and falls out'
+		yield 'held by friction', seen, 'RockJointMat, whose friction acts over the faces (docs/contact-force.md)'

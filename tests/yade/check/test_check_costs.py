@@ -201,6 +201,31 @@ def testPrismsOfDifferentHeightSideBySideAreAdvised():
 # ------------------------------------------------------------------------------------------------ faults of contacts
 
 
+@pytest.mark.parametrize('material, held', [(FrictMat, True), (RockJointMat, False)])
+def testAYadeLawHoldsABlockBetweenTwoFaces(material, held):
+	"""With a law of YADE's it turns and falls out in space, silently; RockJointMat holds it."""
+	own = {'young': 1e8} if material is FrictMat else {'normalStiffness': 1e8, 'shearStiffness': 1e8}
+	O.materials.append(material(density=2600, frictionAngle=1, **own))
+	for x in (-0.999, 0.999):
+		O.bodies.append(polytope.cuboid((x, 0, 0), (0.5, 0.5, 0.5), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines(damping=0.5)
+	O.run(400, True)
+	assert [one.what for one in polytope.check(O)] == (['held by friction'] if held else [])
+	if held:
+		assert polytope.check(O)['held by friction'].seen.startswith('body 2 is held')
+
+
+def testASteepSlopeBearsABlockItself():
+	"""Friction bears a quarter of its weight there."""
+	O.materials.append(FrictMat(density=2600, frictionAngle=1, young=1e8))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 0.499), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines(gravity=(4.9, 0, -8.5), damping=0.5)
+	O.run(400, True)
+	assert not polytope.check(O)
+
+
 @pytest.mark.parametrize('perArea', [False, True])
 def testAFaceOnSeveralPieces(perArea):
 	"""Two bricks that move carry a beam."""
