@@ -55,6 +55,17 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 	});
 }
 
+void Ig2_Polytope_Polytope_PolytopeGeom::pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& named)
+{
+	if (named.has_key("normal"))
+		polytope::refuse(
+		        "normal: contactModel chooses it now: 'boon2012' has the paper's averaged normal, each other model the direction "
+		        "of its force");
+	if (named.has_key("barrier"))
+		polytope::refuse(
+		        "barrier: there is no contact with a barrier any more; contactModel='surface', the default, conserves energy");
+}
+
 const Ig2_Polytope_Polytope_PolytopeGeom* Ig2_Polytope_Polytope_PolytopeGeom::of(const Scene& scene)
 {
 	return firstFunctor<const Ig2_Polytope_Polytope_PolytopeGeom>(scene, &InteractionLoop::geomDispatcher);

@@ -19,7 +19,8 @@ public:
 
 	/// Refuses unknown names and settings out of range, naming the attribute, and restores the last good value.
 	void postLoad(Ig2_Polytope_Polytope_PolytopeGeom&);
-	void pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict&) override { }
+	/// Refuses settings that were, naming what has taken their place.
+	void pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& named) override;
 
 	/// The first of the scene, null where it has none.
 	static const Ig2_Polytope_Polytope_PolytopeGeom* of(const Scene& scene);

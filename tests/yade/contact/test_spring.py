@@ -31,6 +31,12 @@ def testWhatReplacesTheFormerModelIsNamed():
 	with pytest.raises(ValueError, match="contactModel: 'conservative' is 'surface' now"):
 		polytope.contact(*(polytope.cuboid((0, 0, z), (1, 1, 1)) for z in (0, 1.9)), contactModel='conservative')
 	assert not hasattr(functor, 'barrier')
+	for former, value, now in (
+		('normal', 'averaged', "'boon2012' has the paper's averaged normal"),
+		('barrier', 1e-3, "contactModel='surface'"),
+	):
+		with pytest.raises(ValueError, match=f'^{former}: .*{now}'):
+			Ig2_Polytope_Polytope_PolytopeGeom(**{former: value})
 
 
 def testOnePairKnowsItsEnergy():
