@@ -20,15 +20,13 @@ def shapeOf(normals, offsets):
 
 
 def areaOfFace(corners, normal, offset):
-	"""[m²]"""
+	"""Area of the face that a convex body with these corners (n, 3) has on a plane [m²]; 0 of an edge or a vertex."""
 	extent = float(np.ptp(corners, axis=0).max())
 	on = corners[np.abs(corners @ normal - offset) < onPlane * extent]
 	if len(on) < 3:
 		return 0.0
 	x, y = ((on - on.mean(axis=0)) @ frameOf(normal)[:, 1:]).T
-	order = np.argsort(np.arctan2(y, x))
-	x, y = x[order], y[order]
-	return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
+	return float(np.linalg.norm(areaVector(on[np.argsort(np.arctan2(y, x))])))
 
 
 def areaVector(corners):

@@ -18,6 +18,7 @@ from yade import (
 	RockJointMat,
 )
 from yade.polytope.bodies.polytopes import fromHalfSpaces
+from yade.polytope.rock.faces import areaVector
 
 from .blockGeometry import BlockGeometry, samePlane
 
@@ -221,8 +222,7 @@ class WedgeScene:
 		body = O.bodies[self.wedgeId]
 		corners = np.array([body.state.ori * v for v in body.shape.vertices], float)
 		for face in body.shape.faces:
-			polygon = corners[list(face)]
-			vector = sum(np.cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]) for k in range(1, len(polygon) - 1)) / 2
+			vector = areaVector(corners[list(face)])
 			area = np.linalg.norm(vector)
 			if area + vector.dot(normal) < samePlane * area:
 				return float(area)

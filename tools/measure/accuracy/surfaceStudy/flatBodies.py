@@ -6,6 +6,7 @@ import math
 import numpy as np
 from yade import Quaternion, Vector3, utils
 from yade.polytope.bodies.polytopes import cuboid, fromVertices, polygon, regular
+from yade.polytope.rock.faces import areaOfFace
 
 __all__ = ['Lying', 'lyingBody', 'bodyKinds', 'planarBodies']
 
@@ -80,7 +81,11 @@ def lyingBody(kind, material=-1, heading=0.0, yaw=0.0, tilt=Quaternion.Identity)
 	corners = np.array([body.state.ori * v for v in body.shape.vertices], float)
 	heights = corners @ up
 	height = -float(heights.min())
-	return Lying(body, height, _area(body, corners[heights < -height + 1e-9], up, planar), corners, along)
+	if planar:
+		area = float(np.ptp(corners[heights < -height + 1e-9, 0])) * body.shape.thickness
+	else:
+		area = areaOfFace(corners, up, -height)
+	return Lying(body, height, area, corners, along)
 
 
 def _faceDown(shape, up, planar):
@@ -102,15 +107,3 @@ def _faceDown(shape, up, planar):
 	if sine < 1e-12:
 		return Quaternion.Identity if cosine > 0 else Quaternion(Vector3(1, 0, 0), math.pi)
 	return Quaternion(Vector3(*turned / sine), math.atan2(sine, cosine))
-
-
-def _area(body, lowest, up, planar):
-	"""Area of the face with these corners; 0 for an edge or a vertex."""
-	if planar:
-		return float(np.ptp(lowest[:, 0])) * body.shape.thickness
-	if len(lowest) < 3:
-		return 0.0
-	flat = lowest[:, :2] - lowest[:, :2].mean(axis=0)
-	flat = flat[np.argsort(np.arctan2(flat[:, 1], flat[:, 0]))]
-	x, y = flat.T
-	return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
