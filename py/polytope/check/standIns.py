@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from ..bodies.halfSpaces import halfSpacesOf
+from ..bodies.halfSpaces import boxPlanes, halfSpacesOf
 from ..bodies.polytopes import fromHalfSpaces
 from ..scene.vertices import worldVertices
 
@@ -20,11 +20,11 @@ def standIn(support, body):
 	corners, middle, reach = worldVertices(body), np.array(body.state.pos, float), float(body.shape.circumscribedRadius)
 	if (normals @ corners.T - offsets[:, None]).min(axis=1).max() > 0:
 		return None
-	box = np.concatenate([np.eye(3), -np.eye(3)])
+	box = boxPlanes(middle - behind * reach, middle + behind * reach)
 	try:
 		return fromHalfSpaces(
-			np.concatenate([normals, box]),
-			np.concatenate([offsets, box @ middle + behind * reach]),
+			np.concatenate([normals, box[0]]),
+			np.concatenate([offsets, box[1]]),
 			material=body.material,
 			color=(1, 1, 1),
 		)
