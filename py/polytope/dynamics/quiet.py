@@ -5,9 +5,9 @@ import numpy as np
 from yade import BaseMotion, O, Polytope, QuietBoundary, Vector3
 
 from ..arguments import namedArguments, number, vector
-from ..bonding.bonds import madeBonds
 from ..precision import real
 from ..rock.faces import areaVector, centroidOf
+from ..rock.stress.forces import forcesOfContacts
 from ..scene.permanentLoads import permanentLoads
 from ..scene.present import gravityOf, insertEngine, placeOfForces
 from ..scene.vertices import localVertices
@@ -65,7 +65,8 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 	gravity, place = gravityOf(), placeOfForces('the dashpots act')
 	areas, faces = zip(*(_outerFace(k, normal) for k in ids), strict=True)
 	_refuseLoadedFaces(ids, normal)
-	borne = _contactForces(ids)
+	loads = forcesOfContacts(lambda k: k in ids)
+	borne = {k: loads[k][0] if k in loads else Vector3.Zero for k in ids}
 	_refuseUnheld(ids, gravity, borne)
 	supports = [_support(O.bodies[k], gravity, borne[k]) for k in ids]
 	impedances = [
@@ -107,19 +108,6 @@ def _outerFace(number, normal):
 		)
 	areas, centroids = zip(*outer, strict=True)
 	return float(sum(areas)), np.average(centroids, axis=0, weights=areas)
-
-
-def _contactForces(ids):
-	"""Number of each of these bodies → force of its contacts and bonds on it [N]. Not O.forces, which are not known after O.load."""
-	borne = dict.fromkeys(ids, Vector3.Zero)
-	forces = [(one, one.phys.normalForce + one.phys.shearForce) for one in O.interactions if one.isReal]
-	forces += [(one, one.force) for one in madeBonds() if one.intact]
-	for one, force in forces:  # on body 2
-		if one.id1 in borne:
-			borne[one.id1] -= force
-		if one.id2 in borne:
-			borne[one.id2] += force
-	return borne
 
 
 def _refuseLoadedFaces(ids, normal):

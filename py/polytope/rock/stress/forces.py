@@ -7,13 +7,13 @@ from ...bonding.bonds import presentBonds
 from ...scene.movers import canMove, partsOf
 from ...scene.present import gravityOf
 
-__all__ = ['less', 'loadsAtRest', 'removedForces', 'weightAndWater']
+__all__ = ['forcesOfContacts', 'less', 'loadsAtRest', 'removedForces', 'weightAndWater']
 
 
 def removedForces(removed):
 	"""id → (force [N], torque about its centre [N·m]) of contacts and bonds with the bodies *removed* (a set of ids), of bodies that stay
 	and can move."""
-	return _forces(lambda k: k not in removed and canMove(O.bodies[k]), lambda k: k in removed)
+	return forcesOfContacts(lambda k: k not in removed and canMove(O.bodies[k]), lambda k: k in removed)
 
 
 def loadsAtRest(bodies):
@@ -22,7 +22,7 @@ def loadsAtRest(bodies):
 	movers = [k for k in bodies if O.bodies[k].dynamic]
 	parts = {part for k in movers for part in partsOf(k)}
 	loads = weightAndWater(movers)
-	for k, load in _forces(lambda k: k in parts, lambda _: True).items():
+	for k, load in forcesOfContacts(lambda k: k in parts).items():
 		_add(loads, k, *load)
 	return {k: (-force, -torque) for k, (force, torque) in loads.items()}
 
@@ -51,8 +51,9 @@ def _add(loads, k, force, torque):
 	loads[k] = known[0] + force, known[1] + torque
 
 
-def _forces(on, by):
-	"""id → (force, torque about its centre) on bodies of which *on* is true, by those of which *by* is."""
+def forcesOfContacts(on, by=lambda k: True):
+	"""id → (force [N], torque about its centre [N·m]) of contacts and bonds on bodies for whose ids *on* is true, by those for whose ids *by* is. Not
+	O.forces, which are not known after O.load."""
 	loads = {}
 	for contact in O.interactions:
 		if contact.isReal:
