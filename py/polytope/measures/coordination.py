@@ -4,11 +4,10 @@
 import dataclasses
 import itertools
 
-from yade import O
-
 from ..bonding.bonds import intactBonds
 from ..scene.movers import moverOf
 from ..scene.namedBodies import namedBodies
+from .counted import bearing
 
 __all__ = ['Coordination', 'coordinationNumber']
 
@@ -39,11 +38,11 @@ def coordinationNumber(ids=None):
 	touching = dict.fromkeys(namedBodies(ids), 0)
 	if not touching:
 		raise ValueError('ids: there is no free polytope')
-	pairs = [(one.id1, one.id2) for one in O.interactions if one.isReal and one.phys.normalForce.squaredNorm() > 0]
+	pairs = [(contact.id1, contact.id2) for contact in bearing()]
 	pairs += {(bond.id1, bond.id2) for bond in intactBonds()}
 	for k in map(moverOf, itertools.chain(*pairs)):
 		if k in touching:
 			touching[k] += 1
-	bearing = [count for count in touching.values() if count > 1]
-	mechanical = sum(bearing) / len(bearing) if bearing else float('nan')
-	return Coordination(sum(touching.values()) / len(touching), mechanical, len(touching) - len(bearing), len(touching))
+	several = [count for count in touching.values() if count > 1]
+	mechanical = sum(several) / len(several) if several else float('nan')
+	return Coordination(sum(touching.values()) / len(touching), mechanical, len(touching) - len(several), len(touching))

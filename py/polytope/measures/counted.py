@@ -10,6 +10,7 @@ __all__ = ['bearing', 'freePolytopes', 'massive']
 
 
 def bearing():
+	"""Contacts that bear a normal force."""
 	return [contact for contact in O.interactions if contact.isReal and contact.phys.normalForce.squaredNorm() > 0]
 
 
