@@ -6,50 +6,49 @@ import math
 import numpy as np
 from yade import O
 
-from ..scene.movers import partsOf
 from .plates import force, moveTo, plate, replaced, thickness
-from .sample import Sample
-from .servo import Servo, actOn, eased
+from .servo import eased
+from .shearApparatus import ShearApparatus
 
 __all__ = ['ShearFrame']
 
 
-class ShearFrame(Sample):
+class ShearFrame(ShearApparatus):
 	"""Rough plates below and above, sides along x that tilt with the sample, the walls that it had along y.
 
 	The lower plate stands still. The upper one holds the normal stress along z, and moves along x; the sides turn about their feet.
 	"""
 
+	name = 'shear frame'
 	steepest = 1.0
 	"""Largest shear strain for which the sides are long enough."""
 
 	def __init__(self, sample):
-		super().__init__(sample.ids)
+		super().__init__(sample)
 		low, high = sample.lower, sample.upper
-		smooth = O.bodies[sample.walls[0][0]].material
-		rough = next(O.bodies[part].material for part in partsOf(self.ids[0]))
 		self.foot, (self.length, self.width, self.height) = low, sample.extents
-		self.thick, self.displacement, self.shearRate = thickness * self.length, 0.0, 0.0
+		self.thick, self.shearRate = thickness * self.length, 0.0
 		replaced([*sample.walls[0], *sample.walls[2]])
 		aside = np.array([self.length + 2 * self.height * self.steepest, self.length, 0])
 		up = np.array([0, 0, self.thick])
-		self.bottom = plate(low - aside - up, [*(high + aside)[:2], low[2]], rough)
-		self.top = plate([*(low - aside)[:2], high[2]], high + aside + up, rough)
+		self.bottom = plate(low - aside - up, [*(high + aside)[:2], low[2]], self.rough)
+		self.top = plate([*(low - aside)[:2], high[2]], high + aside + up, self.rough)
 		reach = np.array([0, self.length, self.height * self.steepest])  # beyond both plates, at every tilt
 		self.sides = [
-			plate(low - reach - (self.thick, 0, 0), [low[0], *(high + reach)[1:]], smooth),
-			plate([high[0], *(low - reach)[1:]], high + reach + (self.thick, 0, 0), smooth),
+			plate(low - reach - (self.thick, 0, 0), [low[0], *(high + reach)[1:]], self.smooth),
+			plate([high[0], *(low - reach)[1:]], high + reach + (self.thick, 0, 0), self.smooth),
 		]
 		self.hold([*sample.walls[1], self.bottom, self.top, *self.sides])
-		self.servo, self.tilt, self.rate = Servo(self.mass), 0.0, 0.0
+		self.tilt, self.rate = 0.0, 0.0
 
 	@property
 	def extents(self):
 		return np.array([self.length, self.width, self.height])
 
-	def boundaryStress(self):
-		"""Normal stress [Pa] on the upper plate, positive in compression; the other two are not measured."""
-		return np.array([np.nan, np.nan, force(self.top)[2] / (self.length * self.width)])
+	@property
+	def area(self):
+		"""Of the sample in a section normal to z [m²]."""
+		return self.length * self.width
 
 	def shearStrain(self):
 		"""Displacement of the upper plate over the height [-]."""
@@ -57,24 +56,15 @@ class ShearFrame(Sample):
 
 	def shearStress(self):
 		"""Shear stress on the upper plate along x [Pa], positive where it resists shear()."""
-		return -float(force(self.top)[0]) / (self.length * self.width)
+		return -float(force(self.top)[0]) / self.area
 
 	def shear(self, rate):
 		"""Simple shear from now on at this rate [1/s]."""
 		self.shearRate = rate
 
-	def apply(self):
-		if any(self.rates) or self.stresses[0] is not None or self.stresses[1] is not None:
-			raise ValueError('sample: in a shear frame only the stress along z can be held')
-		actOn(self)
-
 	def move(self):
 		"""Sets the plates' velocities for this step."""
-		dt = float(O.dt)
-		speed = 0.0
-		if self.stresses[2] is not None:
-			self.servo.fastest = self.fastest[2] * self.height
-			speed = self.servo.step(force(self.top)[2] - self.stresses[2] * self.length * self.width)
+		dt, speed = float(O.dt), self.speedOfTop(self.height)
 		# both grow together: the sides stay straight between the plates
 		self.rate = eased(self.rate, self.shearRate)
 		self.displacement += (self.rate * self.height + self.shearStrain() * speed) * dt

@@ -4,10 +4,9 @@
 import numpy as np
 from yade import O
 
-from ..scene.movers import partsOf
 from .plates import force, moveTo, plate, replaced, thickness
-from .sample import Sample
-from .servo import Servo, actOn, eased
+from .servo import eased
+from .shearApparatus import ShearApparatus
 
 __all__ = ['SplitBox']
 
@@ -17,55 +16,42 @@ gap = 0.05
 no grain falls through."""
 
 
-class SplitBox(Sample):
+class SplitBox(ShearApparatus):
 	"""Lower half: a rough bottom and four smooth sides, which stand still. Upper half: four smooth sides that move along x, and a rough
 	plate that moves with them and holds the normal stress along z, on the area that the box had at the beginning.
 	"""
 
+	name = 'shear box'
+
 	def __init__(self, sample):
-		super().__init__(sample.ids)
+		super().__init__(sample)
 		low, high = sample.lower, sample.upper
-		smooth = O.bodies[sample.walls[0][0]].material
-		rough = next(O.bodies[part].material for part in partsOf(self.ids[0]))
 		self.begun, self.area = np.array(sample.extents), float(np.prod(sample.extents[:2]))
 		self.longest = thickness * float(self.begun[0])
 		replaced([k for pair in sample.walls for k in pair])
 		thick, middle = np.full(3, self.longest), (low[2] + high[2]) / 2
 		outer = low - thick, high + thick
-		self.bottom = plate(outer[0], [*outer[1][:2], low[2]], rough)
+		self.bottom = plate(outer[0], [*outer[1][:2], low[2]], self.rough)
 		above = high[2] + self.begun[2]  # room for the plate, which moves between the sides
 		half = gap / 2 * sample.meanSize
-		self.lowerSides = _sides(low, high, thick, outer[0][2], middle - half, smooth)
-		self.upperSides = _sides(low, high, thick, middle + half, above, smooth)
-		self.top = plate([*outer[0][:2], high[2]], [*outer[1][:2], high[2] + self.longest], rough)
+		self.lowerSides = _sides(low, high, thick, outer[0][2], middle - half, self.smooth)
+		self.upperSides = _sides(low, high, thick, middle + half, above, self.smooth)
+		self.top = plate([*outer[0][:2], high[2]], [*outer[1][:2], high[2] + self.longest], self.rough)
 		self.hold([self.bottom, self.top, *self.lowerSides, *self.upperSides])
 		self.places = {k: np.array(O.bodies[k].state.pos, float) for k in (*self.upperSides, self.top)}
-		self.servo, self.speed, self.present = Servo(self.mass), 0.0, 0.0
-		self.displacement, self.rise = 0.0, 0.0
+		self.speed, self.present, self.rise = 0.0, 0.0, 0.0
 
 	@property
 	def extents(self):
 		return self.begun + (0, 0, self.rise)
 
-	def boundaryStress(self):
-		"""Normal stress [Pa] on the upper plate, positive in compression; the other two are not measured."""
-		return np.array([np.nan, np.nan, force(self.top)[2] / self.area])
-
 	def shearStress(self):
 		"""Force along x between the halves over the area at the beginning [Pa], positive where it resists the displacement."""
 		return -float(force(self.top, *self.upperSides)[0]) / self.area
 
-	def apply(self):
-		if any(self.rates) or self.stresses[0] is not None or self.stresses[1] is not None:
-			raise ValueError('sample: in a shear box only the stress along z can be held')
-		actOn(self)
-
 	def move(self):
 		"""Sets the velocities of the upper half for this step."""
-		dt, speed = float(O.dt), 0.0
-		if self.stresses[2] is not None:
-			self.servo.fastest = self.fastest[2] * float(self.begun[2])
-			speed = self.servo.step(force(self.top)[2] - self.stresses[2] * self.area)
+		dt, speed = float(O.dt), self.speedOfTop(float(self.begun[2]))
 		self.present = eased(self.present, self.speed)
 		self.displacement += self.present * dt
 		self.rise += speed * dt
