@@ -20,6 +20,7 @@ __all__ = [
 	'namedArguments',
 	'number',
 	'numbersOf',
+	'pathOfFile',
 	'positive',
 	'randomOf',
 	'rotation',
@@ -66,6 +67,17 @@ def positive(value, name):
 	if not 0 < found < infinite:
 		raise ValueError(f'{name}: must be positive and finite, got {value!r}')
 	return found
+
+
+def pathOfFile(path, name):
+	"""The path as a text, where there is such a file."""
+	if not isinstance(path, (str, os.PathLike)):
+		raise ValueError(f'{name}: must be the path of a file, got {path!r}')
+	if not os.path.exists(path):
+		raise FileNotFoundError(f"{name}: there is no file '{path}'")
+	if os.path.isdir(path):
+		raise ValueError(f"{name}: '{path}' is a folder; give the path of a file in it")
+	return os.fspath(path)
 
 
 def flag(value, name):

@@ -10,6 +10,7 @@ import os
 
 import numpy as np
 
+from ...arguments import pathOfFile
 from .cells import readByMeshio
 from .surfaces import readByTrimesh, readGts, readObj, readSmesh, readVtk
 
@@ -49,15 +50,12 @@ def readMesh(path, name):
 
 	:param str name: of the argument
 	"""
-	if not isinstance(path, (str, os.PathLike)):
-		raise ValueError(f'{name}: must be the path of a file, got {path!r}')
-	if not os.path.exists(path):
-		raise FileNotFoundError(f"{name}: there is no file '{path}'")
+	path = pathOfFile(path, name)
 	suffix = _suffix(path)
 	if suffix in textOfOthers:
 		raise ValueError(f"{name}: '{path}' is {textOfOthers[suffix]}, no mesh; polytope.readShapes reads it")
 	try:
-		points, triangles, objects = readers.get(suffix, readByTrimesh)(os.fspath(path))
+		points, triangles, objects = readers.get(suffix, readByTrimesh)(path)
 	except Exception as error:  # readers pass on what they meet
 		missing = isinstance(error, ImportError) and error.name
 		said = f'it needs the Python module {error.name}, which is not installed' if missing else f'{error}' or type(error).__name__

@@ -7,7 +7,7 @@ import os
 
 from yade import O, Polytope, Vector3
 
-from ...arguments import positive, vector
+from ...arguments import pathOfFile, positive, vector
 from ...scene.namedBodies import namedBodies
 from ..meshes.files import isMeshFile
 from ..polytopes import builder
@@ -50,10 +50,7 @@ def readShapes(path, scale=1, shift=(0, 0, 0), names=None, parts=None, rounded=N
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming the argument, and for a malformed file the line and what is expected there
 	"""
-	if not isinstance(path, (str, os.PathLike)):
-		raise ValueError(f'path: must be the path of a file, got {path!r}')
-	if not os.path.exists(path):
-		raise FileNotFoundError(f"path: there is no file '{path}'")
+	path = pathOfFile(path, 'path')
 	scale = positive(scale, 'scale')
 	if isMeshFile(path):
 		raise ValueError(f"path: '{path}' is a mesh; polytope.fromMesh reads it, with parts='objects' all bodies of a file")

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints from text files: tables of discs, the files of YADE's BlockGen, polygons of FracMan and dfnWorks."""
 
-import os
-
-from ...arguments import namedArguments, positive
+from ...arguments import namedArguments, pathOfFile, positive
 from . import fracMan, polygons, tables
 from .rows import Rows
 
@@ -35,12 +33,7 @@ def readJoints(path, format=None, scale=1):
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming the argument, and for a malformed file the line, what is expected there and what to do
 	"""
-	if not isinstance(path, (str, os.PathLike)):
-		raise ValueError(f'path: must be the path of a file, got {path!r}')
-	if not os.path.exists(path):
-		raise FileNotFoundError(f"path: there is no file '{path}'")
-	if os.path.isdir(path):
-		raise ValueError(f"path: '{path}' is a folder; give the path of a file in it")
+	path = pathOfFile(path, 'path')
 	if format is not None and format not in readers:
 		raise ValueError(f'format: must be one of {", ".join(readers)}, got {format!r}')
 	factor = positive(scale, 'scale')
