@@ -6,6 +6,7 @@ from yade import O
 
 from .measures.contactTypes import ContactTypes, typeOf
 from .measures.energy import storedEnergy
+from .scene.vertices import rotationMatrix
 
 __all__ = ['MotionRecord', 'noContact']
 
@@ -89,7 +90,7 @@ class MotionRecord:
 		if len(touching):
 			points, partner = self.point[touching], O.bodies[self.partner]
 			own = self.types.features(self.body, points, self.position[touching], _rotations(self.orientation[touching]))
-			turn = np.array(partner.state.ori.toRotationMatrix(), float).reshape(3, 3)
+			turn = rotationMatrix(partner.state.ori)
 			still = [partner.state.pos] * len(points), np.broadcast_to(turn, (len(points), 3, 3))
 			names[touching] = [typeOf(*pair) for pair in zip(own, self.types.features(partner, points, *still), strict=True)]
 		return names

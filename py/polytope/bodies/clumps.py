@@ -7,6 +7,8 @@ import numpy as np
 from yade import Body, Matrix3, O, Polytope, Quaternion, Vector3, _polytope
 
 from ..arguments import warn
+from ..scene.vertices import rotationMatrix
+from .halfSpaces import planesAboutCentre
 from .polytopes import fromHalfSpaces, isotropyTolerance
 
 __all__ = ['clump', 'ofUnion', 'rigid', 'union', 'volumeOfUnion']
@@ -57,7 +59,7 @@ def rigid(parts):
 	centre = masses @ places / masses.sum()
 	tensor = np.zeros((3, 3))
 	for part, mass, place in zip(parts, masses, places, strict=True):
-		turn = np.array([float(x) for x in np.ravel(part.state.ori.toRotationMatrix())]).reshape(3, 3)
+		turn = rotationMatrix(part.state.ori)
 		away = place - centre
 		tensor += turn @ np.diag(np.array(part.state.inertia, float)) @ turn.T + mass * (away @ away * np.eye(3) - np.outer(away, away))
 	return _append(parts, float(masses.sum()), centre, tensor)
@@ -80,7 +82,7 @@ def _append(parts, mass, centre, tensor):
 
 
 def union(parts):
-	"""(mass, centre of mass, tensor of inertia about it) of what polyhedra, or polygons, fill together (src/shape/UnionOfParts.hpp)."""
+	"""(mass, centre of mass, tensor of inertia about it) of what polyhedra, or polygons, fill together (src/cutting/UnionOfParts.hpp)."""
 	_, mass, centre, tensor = _polytope.unionOf(_solids(parts))
 	return float(mass), np.array(centre, float), np.array(tensor, float).reshape(3, 3)
 
@@ -101,13 +103,10 @@ def _solids(parts):
 
 
 def _prism(part):
-	shape, state, ends = part.shape, part.state, (Vector3(0, 0, 1), Vector3(0, 0, -1))
-	normals = [*(state.ori * normal for normal in shape.normals), *ends]
-	offsets = [*shape.offsets, *[shape.thickness / 2] * 2]
-	made = fromHalfSpaces(
-		normals, [offset + normal.dot(state.pos) for normal, offset in zip(normals, offsets, strict=True)], material=part.material
-	)
-	made.state.mass = state.mass
+	normals, offsets = planesAboutCentre(part)
+	moved = [offset + normal.dot(part.state.pos) for normal, offset in zip(normals, offsets, strict=True)]
+	made = fromHalfSpaces(normals, moved, material=part.material)
+	made.state.mass = part.state.mass
 	return made
 
 

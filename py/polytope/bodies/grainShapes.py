@@ -7,7 +7,7 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import Body, Polytope, Quaternion
 
-from ..scene.vertices import localVertices
+from ..scene.vertices import localVertices, rotationMatrix
 from .clumps import union
 from .polytopes import fromVertices, ofOneColour
 
@@ -32,7 +32,7 @@ class GrainShape:
 		"""
 		if len(self.parts) == 1:
 			return [fromVertices((size * self.parts[0]).tolist(), orientation=turn, center=(0, 0, 0), **body)]
-		matrix = np.array(turn.toRotationMatrix(), float).reshape(3, 3)
+		matrix = rotationMatrix(turn)
 		pieces = ofOneColour(body)
 		return [fromVertices((size * points @ matrix.T).tolist(), **pieces) for points in self.parts]
 
@@ -86,7 +86,7 @@ def partsOfLoose(one):
 
 def cornersOf(body):
 	"""Relative to its centre, in world axes."""
-	return localVertices(body.shape) @ np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3).T
+	return localVertices(body.shape) @ rotationMatrix(body.state.ori).T
 
 
 def turnOf(random):

@@ -5,9 +5,9 @@ import numpy as np
 from yade import Vector3, _polytope
 
 from ..arguments import numbersOf, vectors
-from ..scene.vertices import rows
+from ..scene.vertices import rotationMatrix, rows
 
-__all__ = ['boxPlanes', 'convexRegion', 'halfSpacesOf', 'worldPlanes']
+__all__ = ['boxPlanes', 'convexRegion', 'halfSpacesOf', 'planesAboutCentre', 'worldPlanes']
 
 
 def halfSpacesOf(body, seenFrom):
@@ -18,9 +18,20 @@ def halfSpacesOf(body, seenFrom):
 
 def worldPlanes(body):
 	"""(unit normals (n, 3), offsets (n,)) of a polytope's own planes."""
-	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+	turn = rotationMatrix(body.state.ori)
 	normals = rows(body.shape.normals) @ turn.T
 	return normals, np.array(body.shape.offsets, float) + normals @ np.array(body.state.pos, float)
+
+
+def planesAboutCentre(body):
+	"""(unit normals, offsets) of a polytope's planes in world axes, about its centre, in YADE's numbers; of a polygon those of the prism that it
+	stands for."""
+	shape = body.shape
+	normals, offsets = [body.state.ori * normal for normal in shape.normals], list(shape.offsets)
+	if shape.dimension == 2:
+		normals += [Vector3(0, 0, 1), Vector3(0, 0, -1)]
+		offsets += [shape.thickness / 2] * 2
+	return normals, offsets
 
 
 def boxPlanes(lower, upper):

@@ -28,6 +28,7 @@ from yade import Quaternion, Vector3, _polytope
 
 from .._sharedArguments import withShared
 from ..arguments import flag, maskOf, materialOf, number, numbersOf, rotation, rows, vector, vectors
+from ..scene.vertices import rotationMatrix
 
 __all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon']
 
@@ -175,7 +176,7 @@ def refuseInside(placed, outline, shape):
 
 	:param placed: the shape where the points are (CentralShape)
 	"""
-	turn = np.array(placed.orientation.toRotationMatrix(), float).reshape(3, 3)
+	turn = rotationMatrix(placed.orientation)
 	normals = np.array(shape.normals, float) @ turn.T
 	sides = np.abs(normals[:, 2]) < 0.5  # a prism's ends are normal to z
 	points = np.array(outline, float)

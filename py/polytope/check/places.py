@@ -14,7 +14,7 @@ from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
 from ..scene.radii import inscribedRadius
-from ..scene.vertices import worldVertices
+from ..scene.vertices import rotationMatrix, worldVertices
 from .neighbours import looks, touching, touchingPairs
 from .overlaps import coincidence, overlaps
 
@@ -100,7 +100,7 @@ def spanning(scene):
 	large = {}
 	for body in scene.bodies:
 		if isinstance(body.shape, Polytope) and _width(body.shape) / narrowest + margin.max() > half:
-			turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+			turn = rotationMatrix(body.state.ori)
 			corners = np.linalg.solve(cell, turn @ np.array(body.shape.vertices, float).reshape(-1, 3).T)  # in periods
 			share = float((np.ptp(corners, axis=1) + margin).max())
 			if share > half:

@@ -9,6 +9,8 @@ import collections
 import numpy as np
 from yade import O, Polytope
 
+from ..scene.vertices import rotationMatrix
+
 __all__ = ['ContactTypes', 'typeOf', 'types2d', 'types3d']
 
 types3d = ('vertex-vertex', 'vertex-edge', 'vertex-face', 'edge-edge', 'edge-face', 'face-face')
@@ -61,7 +63,7 @@ class ContactTypes:
 
 	def feature(self, body, point):
 		"""The feature of *body* at *point* (world coordinates): 'face', 'edge' or 'vertex'."""
-		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(1, 3, 3)
+		turn = rotationMatrix(body.state.ori)[None]
 		return self.features(body, [point], [body.state.pos], turn)[0]
 
 	def features(self, body, points, positions, turns):

@@ -6,6 +6,7 @@ from yade import O, Vector3
 
 from ..bonding.bonds import intactBonds
 from ..scene.movers import moverOf
+from ..scene.vertices import rotationMatrix
 from .counted import bearing, freePolytopes, massive
 
 __all__ = ['contactFabric', 'longAxes', 'particleFabric']
@@ -44,7 +45,7 @@ def longAxes(ids):
 	axes = []
 	for k in freePolytopes(ids):
 		body = O.bodies[k]
-		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+		turn = rotationMatrix(body.state.ori)
 		# of a polygon in its plane, in which its thickness has no part
 		axes.append(turn[:, int(np.argmin(np.array(body.shape.inertia, float)[: body.shape.dimension]))])
 	return np.array(axes)

@@ -12,7 +12,7 @@ from ..bodies.halfSpaces import boxPlanes, convexRegion
 from ..bodies.polytopes import fromHalfSpaces
 from ..scene.movers import canMove, partsOf
 from ..scene.namedBodies import namedBodies
-from ..scene.vertices import localVertices
+from ..scene.vertices import localVertices, rotationMatrix
 
 __all__ = ['porosity', 'solidVolume', 'volumeInside']
 
@@ -128,7 +128,7 @@ def volumeInside(body, normals, offsets):
 		return volume
 	if (distances >= reach).any():
 		return 0.0
-	turn = np.array(state.ori.toRotationMatrix(), float)
+	turn = rotationMatrix(state.ori)
 	corners = localVertices(shape) @ turn.T + position
 	outside = corners @ normals.T - offsets
 	if (outside <= 0).all():

@@ -9,6 +9,7 @@ from yade import O, Polytope
 from ..bodies.clumps import volumeOfUnion
 from ..bonding.bonds import intactBonds
 from ..scene.movers import moverOf
+from ..scene.vertices import rotationMatrix
 from .counted import bearing, massive
 
 __all__ = ['bodyStress']
@@ -45,7 +46,7 @@ def bodyStress(ids=None):
 
 def _addBond(stress, bond):
 	force, moment, point = (np.array(vector, float) for vector in (bond.force, bond.moment, bond.point))
-	axes = np.array((O.bodies[bond.id1].state.ori * bond.frame1).toRotationMatrix(), float).reshape(3, 3)
+	axes = rotationMatrix(O.bodies[bond.id1].state.ori * bond.frame1)
 	normal, u, v = axes.T
 	# ∫ t ⊗ r over the area, r from its centroid: pressure σ = k(θ₁z − θ₂y), and the shear of a twist, whose mean is the part of a rotation
 	spread = np.outer(normal, np.cross(normal, moment)) + moment @ normal / 2 * (np.outer(v, u) - np.outer(u, v))

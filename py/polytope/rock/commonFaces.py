@@ -8,7 +8,7 @@ from yade import O, RockJointPhys
 
 from ..bodies.halfSpaces import worldPlanes
 from ..bonding.bonds import facingFaces, presentBonds
-from ..scene.vertices import rows
+from ..scene.vertices import rotationMatrix, rows
 from .faceMaterials import materialOfPlane
 
 __all__ = ['CommonFace', 'boundFaces', 'commonFaces', 'contactOf', 'lesser', 'materialOf', 'materialsOfSides', 'planeOf']
@@ -50,7 +50,7 @@ def boundFaces():
 
 def _face(found):
 	body = O.bodies[found.id1]
-	axes = np.array((body.state.ori * found.frame1).toRotationMatrix(), float).reshape(3, 3)
+	axes = rotationMatrix(body.state.ori * found.frame1)
 	centroid = np.array(body.state.pos + body.state.ori * found.point1, float)
 	second = np.zeros((3, 3))
 	if body.shape.dimension == 3:

@@ -9,6 +9,7 @@ from yade import O, Polytope, RockJointMat
 
 from ..arguments import number
 from ..scene.present import interactionLoops, isPerArea, jointMakers
+from ..scene.vertices import worldVertices
 
 __all__ = ['Adhesion', 'blocksNear', 'positive']
 
@@ -48,8 +49,7 @@ def blocksNear(made, chain, width, axis, adhesion, flat):
 	makers, near = jointMakers(interactionLoops()), []
 	blocks = [other for other in O.bodies if isinstance(other.shape, Polytope) and (other.shape.dimension == 2) == flat]
 	for other in blocks:
-		turn = np.array(other.state.ori.toRotationMatrix(), float).reshape(3, 3)
-		corners = np.array(other.shape.vertices, float) @ turn.T + np.array(other.state.pos, float)
+		corners = worldVertices(other)
 		low, high = corners.min(axis=0) - margin, corners.max(axis=0) + margin
 		near += [(k, other.id) for k, box in enumerate(boxes) if (low <= box[1]).all() and (box[0] <= high).all()]
 	for one in [made[0], *(O.bodies[k] for k in sorted({k for _, k in near}))]:

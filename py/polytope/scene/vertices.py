@@ -16,6 +16,7 @@ __all__ = [
 	'placeOf',
 	'quaternionOf',
 	'reachOfWalls',
+	'rotationMatrix',
 	'rows',
 	'turned',
 	'unturned',
@@ -42,6 +43,11 @@ def quaternionOf(body):
 	"""Orientation of a body, (x, y, z, w)."""
 	ori = body.state.ori
 	return float(ori[0]), float(ori[1]), float(ori[2]), float(ori[3])
+
+
+def rotationMatrix(orientation):
+	"""(3, 3) array of a Quaternion."""
+	return np.array(orientation.toRotationMatrix(), float).reshape(3, 3)
 
 
 def turned(points, quaternions):
