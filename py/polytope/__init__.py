@@ -69,8 +69,8 @@ from .rock.jointedRock import JointedRock, JointSet, jointedRock
 from .rock.keyBlocks import KeyBlock, keyBlocks
 from .rock.limit.analysis import LimitAnalysis, limitAnalysis
 from .rock.lining import Adhesion, lining
+from .rock.nonConvexRegions import meshRegion, regionWithout
 from .rock.pointHistories import history
-from .rock.regions import meshRegion, regionWithout
 from .rock.report import RockReport, rockReport, scanLine, stereonet
 from .rock.stress.excavation import excavate
 from .rock.stress.inSitu import inSitu

@@ -100,7 +100,7 @@ inline const Real touching = 1e-9;
 inline const Real nearPlane = 1e-6;
 
 /// Sides of the regular polygon that stands for a disc where several joints in one plane cover a face together: it is larger than the disc by
-/// 0.08 % of its area, less than the least bridge of rock that counts (py/polytope/jointedRock).
+/// 0.08 % of its area, less than the least bridge of rock that counts (py/polytope/rock/jointedRock.py).
 inline constexpr int discSides = 64;
 
 /// × extent: a centroid this near to the origin is the origin; it was computed with some ten roundings of the extent, and planes that

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A rock mass cut into blocks by joints.
 
-Blocks are lists of half-spaces, so a joint cuts a block in two by being added to it once from either side (src/shape/JointedBlocks.hpp; Boon,
+Blocks are lists of half-spaces, so a joint cuts a block in two by being added to it once from either side (src/cutting/JointedBlocks.hpp; Boon,
 Houlsby & Utili 2015, "A new rock slicing method based on linear programming", Computers and Geotechnics 65:12-29). Coordinates: x east, y
 north, z up.
 """
@@ -22,9 +22,9 @@ from ..scene.vertices import rows
 from .faceMaterials import faceMaterials, materialsOfFaces
 from .inPlane import asSegment, expectedInPlane, flatCut, flatSet, outlinesOf
 from .joint import Joint, areasOf, asArguments, finite
+from .jointedRegion import regionOf
 from .jointSets import JointSet
 from .jointsOfFaces import contactJoints, jointsOfFaces, jointsOfPlanes, keep, setsOf, writeFaces
-from .region import regionOf
 from .seams import joinedAcrossSeams
 from .termination import Earlier
 

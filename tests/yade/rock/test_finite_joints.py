@@ -8,8 +8,8 @@ import pytest
 from yade import O, RockJointMat, polytope
 from yade.polytope import Joint, JointSet
 from yade.polytope.rock.joint import anglesOf
+from yade.polytope.rock.jointedRegion import regionOf
 from yade.polytope.rock.jointRadii import radiiOf
-from yade.polytope.rock.region import regionOf
 from yade.polytope.rock.termination import Earlier
 
 box = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]

@@ -8,14 +8,15 @@ import numpy as np
 from yade import Body, O, Vector3, _polytope
 
 from ...arguments import numbersOf, rows, vectors
+from ...bodies.halfSpaces import planesAboutCentre
 from ...bodies.pieces import pieceOf
 from ...bodies.polytopes import areFlat
 from ...precision import real
 from ...scene.movers import partsOf
 from ...scene.vertices import worldVertices
 from ..joint import Cut, asArguments
+from ..jointedRegion import areSeveral
 from ..jointedRock import mostBlocks, smallestBridge
-from ..region import areSeveral
 
 __all__ = ['ExcavatedRegion', 'Part', 'restsOf', 'together']
 
@@ -152,12 +153,7 @@ def _partsOf(body, region):
 def _cells(body, faces, least):
 	"""Into which faces cut a convex body: ((normals, offsets, labels, a point inside), number of the body that it is a part of). About the
 	body's centre."""
-	shape, state = body.shape, body.state
-	normals = [tuple(state.ori * one) for one in shape.normals]
-	offsets = [real(one) for one in shape.offsets]
-	if shape.dimension == 2:  # as a prism
-		normals += [(0, 0, 1), (0, 0, -1)]
-		offsets += [real(shape.thickness) / 2] * 2
+	normals, offsets = planesAboutCentre(body)
 	own = vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets')
 	made = _polytope.jointedBlocks([own], asArguments(faces), real(least), real(smallestBridge), mostBlocks, 0)
 	planes, labels = np.frombuffer(made['planes']).reshape(-1, 4), np.frombuffer(made['labels'], np.int32)

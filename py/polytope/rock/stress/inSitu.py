@@ -7,9 +7,9 @@ from yade import Collider, ForceResetter, InteractionLoop, O, RockJointMat, Vect
 from ...arguments import namedArguments
 from ...scene.present import interactionLoops, meanwhile
 from ..commonFaces import commonFaces, contactOf, lesser, materialsOfSides
-from .closure import closures, enlarge, restore
 from .field import StressField
 from .refusals import massOf, refuseField, refuseForces, refuseScene
+from .unloadedSize import closures, enlarge, restore
 from .warnings import warnOfClosure, warnOfGravity
 
 __all__ = ['inSitu']
@@ -88,6 +88,7 @@ def _shear(field, faces):
 		tensile = lesser('tensileStrength', sides)
 		if tensile > 0:
 			contact.phys.tensileStrength, contact.phys.intact = tensile, mayBeIntact
+			# the cap of the Ip2 functor, which has met both strengths as zero (_makeContacts)
 			contact.phys.residualTensileStrength = min(tensile, lesser('residualTensileStrength', sides))
 		count += 1
 	return count

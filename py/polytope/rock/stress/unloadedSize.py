@@ -13,7 +13,7 @@ from yade import O, Quaternion, _polytope
 from ...arguments import vectors
 from ...bodies.halfSpaces import worldPlanes
 from ...bodies.polytopes import isotropyTolerance
-from ...scene.vertices import rows
+from ...scene.vertices import rotationMatrix, rows
 from ..commonFaces import materialOf, planeOf
 from .supports import inLine
 
@@ -61,7 +61,7 @@ def enlarge(bodies):
 
 def _enlargeOne(body, planes):
 	state, old = body.state, body.shape
-	turn = np.array(state.ori.toRotationMatrix(), float).reshape(3, 3)
+	turn = rotationMatrix(state.ori)
 	place = np.array(state.pos, float)
 	normals, offsets = rows(old.normals), np.array(old.offsets, float)  # in the body's axes
 	for plane, (at, slope) in planes.items():

@@ -6,7 +6,6 @@ Their surfaces cut a convex region as joints do, each face only the blocks that 
 
 import dataclasses
 import math
-import os
 
 import numpy as np
 from yade import _polytope
@@ -19,7 +18,7 @@ from ..bodies.polytopes import areFlat
 from ..precision import real
 from .inPlane import asPrisms
 from .joint import Cut, Joint, asArguments
-from .region import areSeveral, regionOf
+from .jointedRegion import areSeveral, regionOf
 
 __all__ = ['meshRegion', 'regionWithout']
 
@@ -52,8 +51,6 @@ def meshRegion(path, scale=1):
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* where the mesh is not closed, or its faces cross
 	"""
-	if not isinstance(path, (str, os.PathLike)):
-		raise ValueError(f'path: must be the path of a mesh file, got {path!r}')
 	factor = positive(scale, 'scale')
 	mesh = readMesh(path, 'path')
 	points = np.array(mesh.points, float) * factor
