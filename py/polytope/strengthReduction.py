@@ -91,7 +91,7 @@ class StrengthReductionResult:
 	failed: float
 	"""Lowest one at which they failed, one last step above *stable*."""
 	stages: list
-	"""All stages (*Stage* of scene/stages.py, *angle* is the factor) in the order they were run, the first one at the factor 1."""
+	"""All stages (*Stage* of scene/stages.py, *level* is the factor) in the order they were run, the first one at the factor 1."""
 	failedQueries: int
 	"""Contact queries without an answer, over all stages."""
 

@@ -29,8 +29,8 @@ def refuseMatchMaker():
 class Stage:
 	"""What happened at one strength."""
 
-	angle: float
-	"""Friction angle [rad], or the factor by which strengths were divided [-] (*strengthReduction*)."""
+	level: float
+	"""Strength: the friction angle [rad] (*frictionReduction*), or the factor by which strengths were divided [-] (*strengthReduction*)."""
 	outcome: str
 	"""'stable': at rest; 'failed': moved too far; 'creeping': neither by the time limit, which counts as failure."""
 	steps: int

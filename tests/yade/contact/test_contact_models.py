@@ -67,7 +67,7 @@ def testTheSlidingWedgeFailsWhereItsLockedInShearSays():
 
 	steps = [math.radians(step) for step in (8, 1, 0.1, 0.02)]
 	result = FrictionReduction([scene.wedgeId], math.radians(70), steps, measure=transverse).run()
-	(last,) = (stage for stage in result.stages if stage.angle == result.stable)
+	(last,) = (stage for stage in result.stages if stage.level == result.stable)
 	explained = math.degrees(theory.frictionAngle(*last.measured))
 	found = math.degrees(result.critical)
 	print(

@@ -228,8 +228,8 @@ class SlidingWedgeReport(WedgeReport):
 
 def plotLockedShear(path, case):
 	"""Normal forces and transverse shear over W against friction angle, in the stable states on the way down."""
-	stages = sorted((stage for stage in case.result.stages if stage.outcome == 'stable'), key=lambda stage: -stage.angle)
-	angles = [math.degrees(stage.angle) for stage in stages]
+	stages = sorted((stage for stage in case.result.stages if stage.outcome == 'stable'), key=lambda stage: -stage.level)
+	angles = [math.degrees(stage.level) for stage in stages]
 	limits = case.given.theory.reactions()
 	figure = Figure(figsize=(12, 4.6), layout='constrained')
 	left, right = figure.subplots(1, 2)

@@ -89,7 +89,7 @@ class SlopeRun:
 		with tqdm(desc=self.label, unit=' checks', disable=None) as bar:
 
 			def progress(stage):
-				words = f'{math.degrees(stage.angle):.2f}°, {1e3 * stage.displacement:.1f} mm, {stage.speed:.0e} m/s'
+				words = f'{math.degrees(stage.level):.2f}°, {1e3 * stage.displacement:.1f} mm, {stage.speed:.0e} m/s'
 				bar.set_postfix_str(words, refresh=False)
 				bar.update()
 
@@ -318,7 +318,7 @@ class SlopeReport:
 				*prismTypes.values(),
 			],
 			[
-				[_degrees(stage.angle), stage.outcome, stage.steps * run.scene.timeStep, 1e3 * stage.displacement, stage.speed]
+				[_degrees(stage.level), stage.outcome, stage.steps * run.scene.timeStep, 1e3 * stage.displacement, stage.speed]
 				+ [stage.measured[1][name] for name in prismTypes]
 				for stage in run.result.stages
 			],

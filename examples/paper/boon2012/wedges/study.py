@@ -121,7 +121,7 @@ class WedgeCase:
 		stages = []
 
 		def check(stage):
-			progress.set_postfix_str(f'{math.degrees(stage.angle):.3f}°', refresh=False)
+			progress.set_postfix_str(f'{math.degrees(stage.level):.3f}°', refresh=False)
 			stages.extend([stage] * self.scene.keepStiffness())
 
 		try:
@@ -169,7 +169,7 @@ class WedgeCase:
 
 	def lastStage(self, angle):
 		"""The Stage at the end of which the angle was found *stable* or *failed* [rad]."""
-		return [stage for stage in self.result.stages if stage.angle == angle][-1]
+		return [stage for stage in self.result.stages if stage.level == angle][-1]
 
 	def drawFailure(self, folder, distance, frame=None, **options):
 		"""Two pictures from the same place: before.png as it is, after.png when the wedge has moved by *distance* [m] at the angle of
@@ -250,7 +250,7 @@ def plotReduction(path, case, theory, title):
 	reduced = case.result.stages[1:]
 	for stable, color, marker, label in ((True, stableColor, 'o', 'at rest'), (False, failedColor, 'v', 'failed (run ends there)')):
 		stages = [stage for stage in reduced if (stage.outcome == 'stable') == stable]
-		angles, displacements = [math.degrees(stage.angle) for stage in stages], [1e3 * stage.displacement for stage in stages]
+		angles, displacements = [math.degrees(stage.level) for stage in stages], [1e3 * stage.displacement for stage in stages]
 		left.plot(angles, displacements, marker, color=color, markersize=4, label=label)
 	if theory is not None:
 		left.axvline(theory, color='0.4', linewidth=1, linestyle='--', label=f'closed form {theory:.3f}°')
