@@ -62,10 +62,27 @@ def testHeadingsAreNotRepeated(name):
 	assert len(set(found)) == len(found), found
 
 
+def filesNamedIn(text):
+	return re.findall(r'(?<![\w/])(?:src|pkg|py|docs|examples|tests|tools|cmake)/[\w./-]*\w', text)
+
+
 @pytest.mark.parametrize('name', names)
 def testFilesThatAreNamedExist(name):
-	for path in re.findall(r'(?<![\w/])(?:src|pkg|py|docs|examples|tests|tools|cmake)/[\w./-]*\w', (project / name).read_text()):
+	for path in filesNamedIn((project / name).read_text()):
 		assert (project / path).exists() or path == 'examples/NAME.py', f'{name}: there is no {path}'
+
+
+@pytest.mark.parametrize('folder', ['src', 'pkg', 'py'])
+def testFilesThatCommentsAndHelpTextsNameExist(folder):
+	ofYadesLibrary = 'py/_polytope.so'  # in the folder that YADE is installed in
+	found = 0
+	for source in (project / folder).rglob('*'):
+		if source.suffix in ('.py', '.hpp', '.cpp'):
+			text = re.sub(r'^\s*#\s*include.*', '', source.read_text(), flags=re.MULTILINE)  # also of YADE's own pkg/
+			for path in filesNamedIn(text):
+				assert (project / path).exists() or path == ofYadesLibrary, f'{source.relative_to(project)}: there is no {path}'
+				found += 1
+	assert found, f'{folder} names no file'
 
 
 def testPagesThatAreNamedElsewhereExist():
