@@ -350,6 +350,8 @@ def testMessagesSayWhatAFileIsNot(tmp_path):
 		ValueError, match='^path: .*half.stl. (cannot be read as a mesh .*(end early|expected)|has no vertices)'
 	):  # the latter where chardet is installed
 		polytope.fromMesh(tmp_path / 'half.stl')
+	with pytest.raises(ValueError, match='^path: .* is a folder; give the path of a file in it'):
+		polytope.fromMesh(tmp_path)
 	(tmp_path / 'what.foo').write_text('0 0 0\n')
 	with pytest.raises(ValueError, match='^path: .*what.foo. cannot be read as a mesh .*[.]3mf, .*[.]stl'):
 		polytope.fromMesh(tmp_path / 'what.foo')

@@ -285,6 +285,7 @@ def testArgumentsAreChecked(tmp_path):
 		polytope.readShapes(tmp_path / 'none.tess')
 	for arguments, words in (
 		({'path': 3}, 'path: must be the path'),
+		({'path': tmp_path}, 'path: .* is a folder; give the path of a file in it'),
 		({'path': files / 'twoCells.tess', 'scale': 0}, 'scale: must be positive'),
 		({'path': files / 'twoCells.tess', 'names': ['a']}, 'names: only shapes of a Rockable'),
 		({'path': files / 'twoCells.tess', 'parts': 3}, 'parts: only shapes of a Rockable'),
