@@ -243,6 +243,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "(GivesJointStiffness::stiffnesses).");
 	py::def("faultOfClosure", &faultOfClosure, (py::arg("closure"), py::arg("stiffness")),
 	        "What does not belong together in a normal law, of a material of this stiffness; empty: nothing.");
+	py::def("stiffnessInSeries", &yade::stiffnessInSeries, (py::arg("k1"), py::arg("k2")),
+	        "Stiffness of a joint between materials of these two, each giving half of the compliance: 2 k1 k2/(k1 + k2).");
 	py::def("timeStepLimits", &timeStepLimits,
 	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts "
 	        "that may be, as "

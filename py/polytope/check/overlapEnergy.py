@@ -72,10 +72,10 @@ class Thrown:
 		if not all(isinstance(material, RockJointMat) for material in materials) or (self.makers and self.makers[0].kn):
 			return None
 		perArea = [isPerArea(material, self.makers) for material in materials]
-		values = [float(material.normalStiffness) for material in materials]
+		values = [material.normalStiffness for material in materials]
 		if perArea[0] != perArea[1]:
-			return False, values[perArea.index(False)]
-		return perArea[0], 2 * values[0] * values[1] / sum(values)
+			return False, float(values[perArea.index(False)])
+		return perArea[0], float(_polytope.stiffnessInSeries(*values))
 
 	def _ifFast(self, one, other, energy):
 		"""The speed, if it is more than that of the fall."""

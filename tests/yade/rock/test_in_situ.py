@@ -353,6 +353,26 @@ def testASecondCallIsRefused():
 		polytope.inSitu(general)
 
 
+@pytest.mark.parametrize(('share', 'refused'), [(0.9, False), (1.1, True)])
+def testAnOverlapCountsByTheStiffnessOfBothMaterials(share, refused):
+	"""Two stiffnesses act in series: 2 k₁k₂/(k₁ + k₂) is larger than the lesser one."""
+	material()
+	material(normalStiffness=1e11)
+	stress = -6e6
+	stiffness = 2 * 2e10 * 1e11 / (2e10 + 1e11)
+	overlap = share * 0.01 * abs(stress) / stiffness
+	assert overlap * 2e10 < 0.01 * abs(stress)
+	cuboid((0, 0, 0), (1, 1, 1), material=0)
+	cuboid((1 - overlap, 0, 0), (2, 1, 1), material=1)
+	around((0, 0, 0), (2, 1, 1))
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	if refused:
+		with pytest.raises(ValueError, match=r'^bodies: 0 and 1 overlap by .* already'):
+			polytope.inSitu(stress * np.eye(3))
+	else:
+		polytope.inSitu(stress * np.eye(3))
+
+
 def testAContactThatIsMissingIsRefusedAndTheSceneIsAsItWas():
 	material()
 	masonry(2)

@@ -4,7 +4,7 @@
 import math
 
 import numpy as np
-from yade import O, Polytope, RockJointMat
+from yade import O, Polytope, RockJointMat, _polytope
 
 from ...bodies.halfSpaces import worldPlanes
 from ...bonding.bonds import intactBonds
@@ -151,7 +151,7 @@ def _refuseStrength(field, faces, largest):
 
 def _refuseOverlap(faces, largest):
 	for face in faces:
-		stiffness = float(lesser('normalStiffness', materialsOfSides(face)))
+		stiffness = float(_polytope.stiffnessInSeries(*(material.normalStiffness for material in materialsOfSides(face))))
 		if face.overlap * stiffness > accuracy * largest:
 			raise ValueError(
 				f'bodies: {face.id1} and {face.id2} overlap by {face.overlap:.3g} m already; blocks must lie face on face, and a stress that they '
