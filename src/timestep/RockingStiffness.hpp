@@ -28,6 +28,15 @@ enum class FaceForce : int {
 /// to second order: the pressure's has 1 for the 4.
 constexpr Real rockingOfSpring = 4;
 
+/// Rocking stiffness of two flush faces over their normal stiffness [m²/rad], where the force is that of a pressure or of the contact model *spring*:
+/// 1/A ∫ (r × n)(r × n)ᵀ dA, times rockingOfSpring for the latter. `meanSquare`: 1/A ∫ r rᵀ dA, r from the centre of the force.
+inline Matrix3 rockingOfFaces(const Matrix3& meanSquare, const Vector3& normal, FaceForce force)
+{
+	const Matrix3 turn  = crossMatrix(normal);
+	const Real    times = force == FaceForce::Spring ? rockingOfSpring : Real(1);
+	return times * turn * meanSquare * turn.transpose();
+}
+
 /// Adds the planes of a body, its centre as seen from the contact point, to H, in the axes (t₁, t₂, n), and returns |Σ a_i/σ_i|. No slack is taken as smaller than `least`, the least
 /// distance of the centre from any plane: in a scene far from its origin small slacks are dominated by rounding.
 inline Real addPlanes(const PlacedShape& body, const Matrix3& axes, Real least, Matrix3& hessian)

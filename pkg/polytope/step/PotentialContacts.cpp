@@ -42,11 +42,8 @@ namespace {
 		springs.normal          = -normal;
 		springs.normalStiffness = springs.shearStiffness = 1;
 		if (shape.dimension() == 3) springs.twistingStiffness = second.trace();
-		if (force != polytope::FaceForce::AtCentre) {
-			const Matrix3r turn      = polytope::crossMatrix(normal);
-			const Real     times     = force == polytope::FaceForce::Spring ? polytope::rockingOfSpring : Real(1);
-			springs.rockingStiffness = times * turn * second * turn.transpose();
-		} else {
+		if (force != polytope::FaceForce::AtCentre) springs.rockingStiffness = polytope::rockingOfFaces(second, normal, force);
+		else {
 			const auto floor         = polytope::ConvexShape::halfSpace(-normal, shape.dimension());
 			springs.rockingStiffness = depth
 			        * polytope::rockingArms({ *floor, normal * depth / 2, Matrix3r::Identity() }, { shape, -point, axes },

@@ -64,18 +64,12 @@ namespace {
 
 	Matrix3r across(const Vector3r& normal) { return Matrix3r::Identity() - normal * normal.transpose(); }
 
-	/// kₙ/A ∫ (r × n)(r × n)ᵀ dA: moment per tilt of springs over an area. `second`: ∫ r rᵀ dA.
-	Matrix3r rockingOfArea(const Matrix3r& second, const Real& area, const Vector3r& normal, const Real& kn)
+	/// Moment per tilt of a force over the area seen along the normal.
+	Matrix3r rockingOfOverlap(const std::vector<polytope::Plane>& planes, const PolytopeGeom& geom, Real reach, int dimension, Real kn)
 	{
-		const Matrix3r turn = polytope::crossMatrix(normal);
-		return kn / area * turn * second * turn.transpose();
-	}
-
-	/// Moment per tilt of a pressure over the area seen along the normal.
-	Matrix3r rockingOfPressure(const std::vector<polytope::Plane>& planes, const Vector3r& normal, Real reach, int dimension, Real kn)
-	{
-		const polytope::OverlapFootprint seen = polytope::overlapFootprint(planes, normal, reach, dimension);
-		return seen.area > 0 ? rockingOfArea(seen.second, seen.area, normal, kn) : Matrix3r(Matrix3r::Zero());
+		const polytope::OverlapFootprint seen = polytope::overlapFootprint(planes, geom.normal, reach, dimension);
+		if (!(seen.area > 0)) return Matrix3r::Zero();
+		return kn * polytope::rockingOfFaces(seen.second / seen.area, geom.normal, geom.faceForce());
 	}
 
 	/// Moment per tilt of bodies with margins, whose half-spaces are apart: that of the faces that lie on each other (src/contact/SpreadContact.hpp).
@@ -83,8 +77,8 @@ namespace {
 	{
 		const auto seen = polytope::momentsOf(geom.outline.corners(), geom.outline.count());
 		if (!(seen.area > 0)) return Matrix3r::Zero();
-		return polytope::rockingOfSpring
-		        * rockingOfArea(polytope::PlaneAxes(geom.normal).inSpace(seen.second), seen.area, geom.normal, kn);
+		const Matrix3r second = polytope::PlaneAxes(geom.normal).inSpace(seen.second);
+		return kn * polytope::rockingOfFaces(second / seen.area, geom.normal, polytope::FaceForce::Spring);
 	}
 
 	bool hasMargin(const Body& body)
@@ -114,9 +108,7 @@ namespace {
 			std::vector<polytope::Plane> planes;
 			polytope::addPlanesOf(body1, planes);
 			polytope::addPlanesOf(body2, planes);
-			const Real kn
-			        = geom.faceForce() == polytope::FaceForce::Spring ? polytope::rockingOfSpring * pair.phys.kn : pair.phys.kn;
-			return rockingOfPressure(planes, geom.normal, 2 * shape2->boundingRadius(), shape2->dimension(), kn);
+			return rockingOfOverlap(planes, geom, 2 * shape2->boundingRadius(), shape2->dimension(), pair.phys.kn);
 		}
 		return force * polytope::rockingArms(body1, body2, geom.normal, geom.penetrationDepth);
 	}
