@@ -27,14 +27,7 @@ namespace {
 		Vector3r aboveFace(const TouchingPair& pair) const { return (faceOffset + 2 * pair.ball) * face; }
 
 		/// Whether the neighbour's face continues the one that is slid on, to within `step`.
-		bool continuedBy(const Solid& neighbour, Real step) const
-		{
-			const auto first = neighbour.planes.begin();
-			return std::any_of(first, first + std::ptrdiff_t(neighbour.faces), [&](const polytope::Plane& plane) {
-				return plane.normal.dot(face) > 1 - Real(polytope::tolerance::parallel)
-				        && math::abs(plane.offset - faceOffset) <= step;
-			});
-		}
+		bool continuedBy(const Solid& neighbour, Real step) const { return faceAt(neighbour, face, faceOffset * face, step); }
 	};
 
 	Vector3r boundingNormal(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int body, int k)

@@ -6,10 +6,11 @@
 /// Bodies that lie on several pieces of one rigid support, flush with each other: fixed plates, boxes, facets of a mesh, members of a clump.
 ///
 /// A contact is computed from two bodies alone. Where body Y slides from piece B to its neighbour X, Y's overlap with X begins as a sliver,
-/// and X's side face, which B covers, would act as an obstacle. Such a face is *internal*: nothing can touch it there. A plane of X near
-/// the overlap is internal if Y slides on another face of X, with a face, an edge or a vertex, and another piece B, whose face continues
-/// that one, fills the place just outside of the plane, at the height of the contact point; so a step of more than a fortieth of the depth, an
-/// edge that is free, and a gap wider than the largest ball in the overlap are not affected.
+/// and X's side face, which B covers, would act as an obstacle. Such a face is *internal*: nothing can touch it there.
+///
+/// A plane of X near the overlap is internal where two things hold. Y slides on another face of X, with a face, an edge or a vertex. And a piece B
+/// whose face continues that one fills the place just outside of the plane, at the height of the contact point. So three things stay obstacles: a step
+/// of more than a fortieth of the depth, an edge that is free, and the edge of a gap that is wider than the largest ball in the overlap.
 ///
 /// All of it follows from poses and shapes, not from other contacts' geometry, which other threads may be writing.
 namespace yade {

@@ -79,7 +79,7 @@ std::optional<SupportPlace> MarginOnPieces::placeOnFace(const Vector3r& point, R
 		if (!(under < thin_) || (best && best->depth <= place.depth)) continue;
 		const auto continues = [&](const Piece& piece) {
 			return &piece != &pieces_.front()
-			        && faceAt(piece, place.outward, place.point, math::max(Real(place.depth / 2), room));
+			        && faceAt(piece.solid, place.outward, place.point, math::max(Real(place.depth / 2), room));
 		};
 		const auto holds
 		        = [&](const Piece& piece) { return contains(piece.solid.planes, place.point, math::max(place.depth, room)); };
@@ -112,25 +112,13 @@ void MarginOnPieces::toNearest(SupportPlace& place) const
 	if (const auto onFace = placeOnFace(place.point, flushRoom())) place = *onFace;
 }
 
-/// The piece's face along a normal as high as a point, to within `step`; null: there is none.
-const polytope::Plane* MarginOnPieces::faceAt(const Piece& piece, const Vector3r& outward, const Vector3r& point, Real step) const
-{
-	for (std::size_t k = 0; k < piece.solid.faces; ++k) {
-		const polytope::Plane& plane = piece.solid.planes[k];
-		if (plane.normal.dot(outward) > 1 - Real(polytope::tolerance::parallel)
-		        && math::abs(plane.offset - plane.normal.dot(point)) <= step)
-			return &plane;
-	}
-	return nullptr;
-}
-
 std::vector<polytope::FaceCorners> MarginOnPieces::faces(const SupportPlace& place) const
 {
 	std::vector<polytope::FaceCorners> all;
 	const polytope::PlaneAxes          axes(place.outward);
 	const Real                         step = math::max(Real(place.depth / 2), flushRoom()), far = 2 * reach_;
 	for (const Piece& piece : pieces_) {
-		const polytope::Plane* const face = faceAt(piece, place.outward, place.point, step);
+		const polytope::Plane* const face = faceAt(piece.solid, place.outward, place.point, step);
 		if (!face && all.empty()) return {};
 		if (!face) continue;
 		polytope::PlanePolygon corners { { -far, -far }, { far, -far }, { far, far }, { -far, far } };

@@ -56,7 +56,6 @@ private:
 	bool                        add(const Body& body, const Vector3r& centre, const Vector3r& ofMover);
 	std::optional<SupportPlace> placeOn(const Piece& piece) const;
 	std::optional<SupportPlace> placeOnFace(const Vector3r& point, Real room) const;
-	const polytope::Plane*      faceAt(const Piece& piece, const Vector3r& outward, const Vector3r& point, Real step) const;
 	Vector3r                    lowest(const Vector3r& outward) const;
 	Real                        flushRoom() const;
 

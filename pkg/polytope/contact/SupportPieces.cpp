@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/SupportPieces.hpp"
 
+#include <src/numbers/Tolerances.hpp>
+
 namespace yade {
 
 int supportOf(const TouchingPair& pair)
@@ -22,6 +24,17 @@ bool contains(const Planes& planes, const Vector3r& point, const Real& room)
 	for (const polytope::Plane& plane : planes)
 		if (!(plane.normal.dot(point) <= plane.offset + room)) return false;
 	return !planes.empty();
+}
+
+const polytope::Plane* faceAt(const Solid& solid, const Vector3r& outward, const Vector3r& point, Real step)
+{
+	for (std::size_t k = 0; k < solid.faces; ++k) {
+		const polytope::Plane& plane = solid.planes[k];
+		if (plane.normal.dot(outward) > 1 - Real(polytope::tolerance::parallel)
+		        && math::abs(plane.offset - plane.normal.dot(point)) <= step)
+			return &plane;
+	}
+	return nullptr;
 }
 
 Real flushStep(const TouchingPair& pair)

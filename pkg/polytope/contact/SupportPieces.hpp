@@ -44,6 +44,10 @@ void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vecto
 /// Whether a point lies in all half-spaces, of which there are some, or not farther than `room` out of each.
 bool contains(const Planes& planes, const Vector3r& point, const Real& room = 0);
 
+/// The solid's face along a normal that passes within `step` of a point, along that face's normal; null: it has none. Where the point is on a face of
+/// another piece, that face goes on here.
+const polytope::Plane* faceAt(const Solid& solid, const Vector3r& outward, const Vector3r& point, Real step);
+
 /// How high a step between two faces is that count as one.
 Real flushStep(const TouchingPair& pair);
 
