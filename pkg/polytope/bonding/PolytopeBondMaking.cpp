@@ -128,7 +128,6 @@ namespace {
 			value = rule(*m1, *m2);
 		};
 		using Mat            = RockJointMat;
-		const auto smaller   = [](Real a, Real b) { return math::min(a, b); };
 		const auto stiffness = [&](Real& value, const char* name, Real Mat::* of) {
 			take(value, name, [&](const Mat& a, const Mat& b) {
 				if (!a.stiffnessPerArea || !b.stiffnessPerArea)
@@ -140,7 +139,7 @@ namespace {
 		stiffness(bond.normalStiffness, "normalStiffness", &Mat::normalStiffness);
 		stiffness(bond.shearStiffness, "shearStiffness", &Mat::shearStiffness);
 		take(bond.frictionAngle, "frictionAngle",
-		        [&](const Mat& a, const Mat& b) { return smaller(a.frictionAngle, b.frictionAngle); });
+		        [&](const Mat& a, const Mat& b) { return math::min(a.frictionAngle, b.frictionAngle); });
 		takeStrengths(bond, m1, m2);
 		if (bond.bendingStiffness < 0) bond.bendingStiffness = bond.normalStiffness;
 		if (bond.twistingStiffness < 0) bond.twistingStiffness = bond.shearStiffness;

@@ -79,6 +79,8 @@ public:
 		contactPoint       = bondPoint;
 		energyPerStiffness = bondEnergyPerStiffness;
 	}
+	/// Whether the bodies overlap. The area of a pair that the query found apart is that of grown bodies.
+	bool                touches() const { return penetrationDepth > 0 && statusCode != int(polytope::ContactStatus::Separated); }
 	polytope::FaceForce faceForce() const { return polytope::FaceForce(faceForceCode); }
 	std::string         statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 

@@ -12,11 +12,6 @@
 namespace yade {
 namespace {
 
-	bool touches(const PolytopeGeom& geom)
-	{
-		return geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
-	}
-
 	/// A contact with its geometry alone; null where the parts are apart, unless `force` asks for one all the same.
 	shared_ptr<Interaction> contactOf(
 	        Scene& scene, const shared_ptr<Body>& part1, const shared_ptr<Body>& part2, const PolytopeGeom& whole, bool force)
@@ -109,7 +104,7 @@ bool continueBetween(Scene& scene, const Interaction& whole, const Body& whole1,
 {
 	const auto& wholeGeom = static_cast<const PolytopeGeom&>(*whole.geom);
 	const auto& wholePhys = static_cast<const RockJointPhys&>(*whole.phys);
-	const auto  made      = contactOf(scene, part1, part2, wholeGeom, /*force*/ !touches(wholeGeom) || wholePhys.bond);
+	const auto  made      = contactOf(scene, part1, part2, wholeGeom, /*force*/ !wholeGeom.touches() || wholePhys.bond);
 	if (!made) return false;
 	auto& geom = static_cast<PolytopeGeom&>(*made->geom);
 	if (!(geom.normal.dot(wholeGeom.normal) > 0)) return false; // another side of the parts
@@ -123,13 +118,13 @@ bool continueBetween(Scene& scene, const Interaction& whole, const Body& whole1,
 	const auto bond = wholePhys.bond ? bondOfParts(*wholePhys.bond, whole1, whole2, *part1, *part2, *scene.bodies) : nullptr;
 	if (bond) takeBond(*phys, geom, bond, *part1, *part2);
 	else {
-		if (wholePhys.bond && !touches(geom)) return false;
+		if (wholePhys.bond && !geom.touches()) return false;
 		// of an open joint as much as it had
-		phys->contactArea = touches(geom) ? geom.contactArea : math::min(geom.contactArea, wholePhys.contactArea);
+		phys->contactArea = geom.touches() ? geom.contactArea : math::min(geom.contactArea, wholePhys.contactArea);
 		if (!(phys->contactArea > 0)) return false;
 		phys->setStiffnesses(geom.share);
 		takeShear(*phys, wholePhys, geom);
-		if (touches(geom)) phys->normalForce = phys->normalSpring(geom.penetrationDepth) * geom.normal;
+		if (geom.touches()) phys->normalForce = phys->normalSpring(geom.penetrationDepth) * geom.normal;
 		if (phys->laws.get()) phys->stiffen(geom.penetrationDepth);
 	}
 	if (wholePhys.lastStep.get()) beginEnergies(*phys, geom, *part1, *part2);

@@ -31,8 +31,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 
 	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it, and one whose strength
 	// depends on the stress has it while dilation holds it open: the last overlap of a tilted face was a part of it
-	const bool touches = geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
-	if (geom.contactArea > 0 && (touches || phys.contactArea == 0 || phys.ownHistory())) phys.contactArea = geom.contactArea;
+	if (geom.contactArea > 0 && (geom.touches() || phys.contactArea == 0 || phys.ownHistory())) phys.contactArea = geom.contactArea;
 	if (phys.laws.get()) beginOwnLaws(phys, geom);
 	phys.setStiffnesses(geom.share);
 	if (phys.tangensOfDilationAngle > 0) phys.dilation = math::min(phys.tangensOfDilationAngle * phys.slip.norm(), phys.dilationLimit);

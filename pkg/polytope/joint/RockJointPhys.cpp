@@ -63,7 +63,7 @@ Real RockJointPhys::normalEnergy(const PolytopeGeom& geom, Real force) const
 		return kn * geom.energyPerStiffness;
 	if (force == 0) return 0; // an open joint with a closure law, too
 	if (laws.get()) return kn * energyPerStiffness(geom.penetrationDepth + dilation - restOverlap);
-	return kn > 0 ? force * force / (2 * kn) : Real(0);
+	return energyOfSpring(force * force, kn);
 }
 
 Real RockJointPhys::presentNormalEnergy(const PolytopeGeom& geom) const
@@ -83,12 +83,12 @@ Real RockJointPhys::shearEnergy() const
 {
 	const Vector3r force = shearForce - shearViscous;
 	const Real     twist = twistingMoment - twistingViscous;
-	Real           bed   = ks > 0 ? force.squaredNorm() / (2 * ks) : Real(0);
+	Real           bed   = energyOfSpring(force.squaredNorm(), ks);
 	if (const LayersOfJoint* several = shearLayers.get()) { // their mean is the force's
 		const Real area = several->layers.area(), mean = several->layers.sum().squaredNorm() / (2 * area);
 		if (contactArea > 0) bed += ks / contactArea * (several->layers.energy() - mean);
 	}
-	return bed + (twistingStiffness > 0 ? twist * twist / (2 * twistingStiffness) : Real(0));
+	return bed + energyOfSpring(twist * twist, twistingStiffness);
 }
 
 } // namespace yade

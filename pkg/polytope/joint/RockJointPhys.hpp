@@ -18,6 +18,9 @@
 /// compressed contact has normalForce·normal > 0. Slip is body 2's relative to body 1.
 namespace yade {
 
+/// Elastic energy of a linear spring [J] that has this square of a force (of a moment); 0 without a stiffness.
+inline Real energyOfSpring(const Real& square, const Real& stiffness) { return stiffness > 0 ? Real(square / (2 * stiffness)) : Real(0); }
+
 /// What the law remembers of a joint's last step where energies are tracked.
 struct LastStepOfJoint {
 	Vector3r arm1 = Vector3r::Zero(), arm2 = Vector3r::Zero(); ///< from the bodies' centres to the contact point

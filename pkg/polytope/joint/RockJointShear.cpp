@@ -23,7 +23,6 @@ Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turned
 		offset_   = inWorld(moments_.centroid);
 	} else axis_[0] = axis_[1] = Vector3r::Zero();
 
-	const Real twistEnergy = twistingStiffness_ > 0 ? twist_ * twist_ / (2 * twistingStiffness_) : Real(0);
 	if (phys.shearStiffness > 0 && stiffness_ > 0 && areaBefore_ > 0) {
 		perArea_ = stiffness_ / areaBefore_;
 		if (phys.shearLayers.get()) {
@@ -35,8 +34,8 @@ Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turned
 		if (!(math::abs(layers_.area() - areaBefore_) <= Real(polytope::tolerance::sameArea) * areaBefore_))
 			layers_ = polytope::ShearLayers(areaBefore_, mean);
 		else layers_.move(mean - layers_.sum() / layers_.area());
-		before_ = perArea_ * layers_.energy() + twistEnergy;
-	} else before_ = (stiffness_ > 0 ? force_.squaredNorm() / (2 * stiffness_) : Real(0)) + twistEnergy;
+	}
+	before_ = energy();
 }
 
 void Shear::adapt(const RockJointPhys& phys)
@@ -202,9 +201,8 @@ void Shear::vanish()
 
 Real Shear::energy() const
 {
-	const Real twisting = twistingStiffness_ > 0 ? twist_ * twist_ / (2 * twistingStiffness_) : Real(0);
-	if (perArea_ > 0) return perArea_ * layers_.energy() + twisting;
-	return (stiffness_ > 0 ? force_.squaredNorm() / (2 * stiffness_) : Real(0)) + twisting;
+	const Real along = perArea_ > 0 ? Real(perArea_ * layers_.energy()) : energyOfSpring(force_.squaredNorm(), stiffness_);
+	return along + energyOfSpring(twist_ * twist_, twistingStiffness_);
 }
 
 void Shear::keep(RockJointPhys& phys) const
