@@ -108,8 +108,12 @@ inline constexpr int discSides = 64;
 inline const Real centred = 64 * rounding;
 
 /// × extent: how far a body's position, rounded, may be from its centroid before the planes are taken about the centroid itself and
-/// the body shifted by the difference: a hundredth of what a body's frame may be off (Polytope::frameTolerance).
+/// the body shifted by the difference: a hundredth of `bodyFrame`.
 inline const Real wellCentred = 1e-8;
+
+/// × bounding radius (centroid), and × trace of the inertia (its products): how far a body's frame may be off before its shape is refused. Loose
+/// enough for planes typed with six digits, far below what affects a simulation.
+inline const Real bodyFrame = 1e-6;
 
 /// × volume of the axis-parallel box: a shape with less volume than this is turned before its moments are summed. The sum's
 /// rounding is that of the box, so three digits are lost at most; a plate that lies along the axes is never turned.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Thresholds of distances from segments, as numbers/Tolerances.hpp has those of the contact path: meaning, scale, reason.
+/// Thresholds of distances from segments and planes, as numbers/Tolerances.hpp has those of the contact path: meaning, scale, reason.
 namespace polytope::tolerance {
 
 /// × the segment's length: how much farther than the nearest a place of a segment that lies along a face may be and still count as near.
@@ -36,5 +36,10 @@ constexpr int sectionSteps = 50;
 /// × the depth of two cores in each other: as far as one is moved along the contact's normal until they are apart, and the way back is
 /// known. The depth is a mean over the overlap, of a corner a third of what leads out of it.
 constexpr double farthestOut = 16;
+
+/// × the body's radius: how far corners of a face may be from a side of a piece of water (WaterPressure.hpp) on which the face lies. Above the
+/// rounding of turns and of places some thousand radii from the origin. The pressure is the same on both sides, so that it does not matter to which
+/// one a face in between is given.
+constexpr double onSide = 1e-9;
 
 } // namespace polytope::tolerance

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/WaterPressure.hpp"
 
+#include "shape/DistanceTolerances.hpp"
 #include "shape/Rings.hpp"
 
 #include <algorithm>
 
 namespace polytope {
 namespace {
-
-	/// How far corners of a face may be from a plane on which the face lies, as a part of the body's radius. Above the rounding of turns and of places
-	/// some thousand radii from the origin; the pressure is the same on both sides, so that it does not matter to which one a face in between is given.
-	constexpr double onSide = 1e-9;
 
 	/// Keeps the part of the polygon where value + slope·x ≥ 0.
 	void keepWhere(const Real& value, const Vector3& slope, ClippedFace& face)
@@ -80,7 +77,7 @@ WaterLoad waterLoad(const PlacedShape& body, const std::vector<PressurePiece>& p
 	WaterLoad         sum;
 	const Polyhedron& shape = body.shape.polyhedron();
 	PressurePiece     own;
-	const Real        room = onSide * body.shape.boundingRadius();
+	const Real        room = tolerance::onSide * body.shape.boundingRadius();
 	for (const PressurePiece& piece : pieces) {
 		if (!reaches(piece, body, own)) continue;
 		for (std::size_t face = 0; face < shape.faces.size(); ++face) {

@@ -5,6 +5,7 @@
 #include <core/Scene.hpp>
 #include <core/State.hpp>
 
+#include <src/shape/ConstructionTolerances.hpp>
 #include <src/shape/RoundedSolid.hpp>
 
 #include <boost/make_shared.hpp>
@@ -34,14 +35,14 @@ namespace {
 std::string Polytope::faultOfFrame() const
 {
 	const polytope::MassProperties mass = massProperties();
-	if (mass.centroid.norm() > frameTolerance * convex_->boundingRadius())
+	if (mass.centroid.norm() > polytope::construction::bodyFrame * convex_->boundingRadius())
 		return "offsets: the body frame's origin must be the centroid, which is at a distance of "
 		        + std::to_string(double(mass.centroid.norm())) + " m; use yade.polytope.fromHalfSpaces, which moves it there";
 	Real products = 0;
 	for (int i = 0; i < 3; ++i)
 		for (int j = 0; j < i; ++j)
 			products = math::max(products, math::abs(mass.inertia(i, j)));
-	if (products > frameTolerance * mass.inertia.trace())
+	if (products > polytope::construction::bodyFrame * mass.inertia.trace())
 		return "normals: the body frame's axes must be the principal axes of inertia; use yade.polytope.fromHalfSpaces, which "
 		       "turns the "
 		       "body";

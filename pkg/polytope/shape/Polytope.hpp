@@ -20,10 +20,6 @@ public:
 	/// Validates and builds; on bad input throws std::invalid_argument naming the argument and leaves the shape as it was.
 	void postLoad(Polytope&);
 
-	/// Relative to the size (centroid) and to the trace (products of inertia): how far the body frame may be off before
-	/// the shape is refused. Loose enough for planes typed with six digits, far below what affects a simulation.
-	static constexpr double frameTolerance = 1e-6;
-
 	/// In YADE's 150-digit build the numbers of a list are written to binary archives as their memory image, which is an address:
 	/// there the planes go into archives as text.
 	static constexpr bool planesAsText = std::numeric_limits<Real>::digits > 113;
