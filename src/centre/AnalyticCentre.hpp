@@ -9,14 +9,14 @@
 /// Analytic centre (Boon et al. 2012, Eq. 10): argmax Σ log(d_i − a_i·x) over all planes of both bodies, redundant ones
 /// kept. Newton on D unknowns for φ(x) = −Σ log(d_i − a_i·x); gradient Σ a_i/slack_i, Hessian Σ a_i a_iᵀ/slack_i².
 ///
-/// No logarithm is evaluated: a full step from a point of decrement < 1 stays inside (Dikin's ellipsoid), and above
-/// `fullStep` the step length is the zero of the directional derivative Σ ρ_i/(1 − t ρ_i), ρ_i = a_i·Δ/slack_i, which
-/// lets a start close to a face's corner cross the whole face in one step where a damped step would double its distance.
+/// No logarithm is evaluated. A full step from a point of decrement < 1 stays inside (Dikin's ellipsoid). Above `fullStep` the step length is
+/// the zero of the directional derivative Σ ρ_i/(1 − t ρ_i), ρ_i = a_i·Δ/slack_i. A start close to a face's corner then crosses the whole face
+/// in one step, where a damped step would double its distance.
 ///
-/// The frame must have its last axis along the contact normal and its origin near the overlap: then a thin overlap makes
-/// the Hessian graded (one axis large), which Cholesky handles without loss, instead of ill-conditioned. An overlap that is thin
-/// across two axes (parallel edges that just overlap, blocks of a wall that meet at a corner) needs the other axes along
-/// its own too: where digits cancel in the Cholesky factorisation, `Skewed` is returned and the caller turns to stiffAxes().
+/// The frame must have its last axis along the contact normal and its origin near the overlap. A thin overlap then makes the Hessian graded
+/// (one axis large) instead of ill-conditioned, and Cholesky handles that without loss. An overlap that is thin across two axes (parallel edges
+/// that just overlap, blocks of a wall that meet at a corner) needs the other axes along its own, too. Where digits cancel in the Cholesky
+/// factorisation, `Skewed` is returned and the caller turns to stiffAxes().
 namespace polytope {
 
 enum class CentreStatus { Converged, RoundingLimited, Skewed, NotConverged };

@@ -30,7 +30,7 @@ enum class CentreSolver : int {
 enum class ContactModel : int {
 	Boon2012 = 0, ///< as printed: stiffness × chord along the averaged normal (Eqs 13-17) through the contact point
 	Foundation,   ///< gradient of an energy, for a stiffness per area (SurfaceContact.hpp)
-	Spring,       ///< the same for a stiffness per contact
+	Spring,       ///< gradient of an energy, for a stiffness per contact (SurfaceContact.hpp)
 };
 
 /// Whether the contact is that of a surface (SurfaceContact.hpp).

@@ -13,8 +13,8 @@ enum class StartBasis {
 	LastContact, ///< the last step's, in that contact's frame, which both bodies have carried along
 	OwnBall,     ///< of the smaller body's inscribed ball, in that body's own frame
 	Aimed,       ///< the last step's or a ball's: frame turned to its dual direction, origin at its point
-	AimedFar,    ///< the same, with the origin on the way to a point far outside the bodies, where every plane would lose digits
-	Unsolved,    ///< the same, but the basis is singular to rounding in that frame
+	AimedFar,    ///< as Aimed, but with the origin on the way to a point far outside the bodies, where every plane would lose digits
+	Unsolved,    ///< as Aimed, but the basis is singular to rounding in that frame
 	None,        ///< no basis could be solved
 	Separating,  ///< its weights separate the bodies: no plane has been placed
 	NoPose,      ///< positions or rotations that are not finite

@@ -44,7 +44,7 @@ template <class Visit> void forPlanesOfCuboid(const Vector3& half, const Visit& 
 			visit(axis, sign, half[axis]);
 }
 
-/// They, in that order.
+/// The six half-spaces of a cuboid about the origin, in the order of forPlanesOfCuboid().
 POLYTOPE_API HalfSpaces cuboid(const Vector3& half);
 
 } // namespace polytope

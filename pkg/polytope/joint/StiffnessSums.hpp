@@ -43,9 +43,8 @@ struct StiffnessSum {
 	}
 };
 
-/// Σ kₙ n nᵀ over the contacts of each body (of a clump: of its members), by the body's id; those with bodies that move and those with
-/// bodies that do not
-/// apart: a soft joint on a block that a stiff one holds to the ground is damped as if the block were the ground.
+/// Σ kₙ n nᵀ over the contacts of each body (of a clump: of its members), by the body's id. Contacts with bodies that move have one sum, those with
+/// bodies that do not another: a soft joint on a block that a stiff one holds to the ground is damped as if the block were the ground.
 ///
 /// A damper that is to be critical for a body has to know what else carries it. The contacts of a step are computed one after the other, by
 /// several threads, so that the sum of this step is not known yet: each contact reads the sum of the last step, and adds to that of this
