@@ -19,25 +19,17 @@ template <class R, int D> struct Section {
 	int      count       = 0;
 };
 
-/// Area and centroid of the polygon of `count` corners u, v about the origin along the axes, by a fan of triangles from its first corner.
+/// Area and centroid of the polygon of `count` corners u, v about the origin along the axes.
 template <class R> POLYTOPE_INLINE Section<R, 3> polygonSection(const R* corner, int count, const R* origin, const Rotation<R, 3>& axes)
 {
-	Section<R, 3> section;
-	R             moment[2] = { 0, 0 };
-	for (int k = 1; k + 1 < count; ++k) {
-		const R u1 = corner[2 * k] - corner[0], v1 = corner[2 * k + 1] - corner[1];
-		const R u2 = corner[2 * k + 2] - corner[0], v2 = corner[2 * k + 3] - corner[1];
-		const R twice = u1 * v2 - v1 * u2;
-		section.area += twice / 2;
-		moment[0] += twice * (u1 + u2) / 6;
-		moment[1] += twice * (v1 + v2) / 6;
-	}
-	if (section.area < 0) section.area = 0; // rounding of a sliver
-	const bool some = section.area > 0;
-	const R    u    = count > 0 ? corner[0] + (some ? moment[0] / section.area : R(0)) : R(0);
-	const R    v    = count > 0 ? corner[1] + (some ? moment[1] / section.area : R(0)) : R(0);
+	const RingArea<R> ring = ringArea<R>(count, [&](int k, R* uv) POLYTOPE_INLINE_LAMBDA {
+		uv[0] = corner[2 * k];
+		uv[1] = corner[2 * k + 1];
+	});
+	Section<R, 3>     section;
+	section.area = ring.area;
 	for (int k = 0; k < 3; ++k)
-		section.centroid[k] = origin[k] + u * axes.m[0][k] + v * axes.m[1][k];
+		section.centroid[k] = origin[k] + ring.centroid[0] * axes.m[0][k] + ring.centroid[1] * axes.m[1][k];
 	section.corner = corner;
 	section.count  = count;
 	return section;

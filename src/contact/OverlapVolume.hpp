@@ -5,6 +5,7 @@
 #include "numbers/Rotation.hpp"
 #include "numbers/Tolerances.hpp"
 #include "program/PairPlanes.hpp"
+#include "shape/RingsOfNumbers.hpp"
 
 #include <algorithm>
 
@@ -109,7 +110,8 @@ public:
 		return true;
 	}
 
-	/// The overlap's footprint along n: a sum over the faces that are turned to n.
+	/// The overlap's footprint along n: a sum over the faces that are turned to n. The moments are those about p of all faces together; ringArea()
+	/// has the first ones of a single ring.
 	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const
 	{
 		const Rotation<R, 3> axes = axesAround<R, 3>(n);
@@ -405,15 +407,15 @@ private:
 	R*                      area_;            ///< of each face, by mass() [m²]
 	int*                    nearest_;         ///< planes to cut by
 	int*                    left_;            ///< vertices of a face after a cut
-	int *                   inner_, *outer_;  ///< ends of the edges that a cut meets,
-	int*                    made_;            ///< and the vertices there
-	int                     cutVertices_ = 0; ///< how many
+	int *                   inner_, *outer_;  ///< ends of the edges that a cut meets
+	int*                    made_;            ///< vertices where a cut meets edges
+	int                     cutVertices_ = 0; ///< how many vertices a cut has made so far
 	int*                    next_;            ///< of a vertex that the cut made: the one after it in the new face
 	int*                    free_;            ///< places of vertices that were cut away
 	int                     freePlaces_ = 0;
 };
 
-/// The loop of corners alone, cut by one line after the other.
+/// The overlap of two polygons: a loop of corners, cut by one line after the other.
 template <class R, int W> class Overlap<R, 2, W> {
 public:
 	POLYTOPE_INLINE Overlap(const PairPlanes<R, 2>& planes, const R*, R halfWidth, ContactWorkspace& workspace)
@@ -427,21 +429,17 @@ public:
 			if (planes.offset[i] < R(padOffset) / 2) cut(i, tolerance);
 	}
 
-	POLYTOPE_INLINE bool mass(const R* x, OverlapMass<R, 2>& result) const
+	/// False if there is no measurable area.
+	POLYTOPE_INLINE bool mass(const R*, OverlapMass<R, 2>& result) const
 	{
-		R moment[2] = {};
-		for (int v = 0, last = count_ - 1; v < count_; last = v++) {
-			const R from[2] = { here_[2 * last] - x[0], here_[2 * last + 1] - x[1] },
-			        to[2]   = { here_[2 * v] - x[0], here_[2 * v + 1] - x[1] };
-			const R twice   = from[0] * to[1] - from[1] * to[0];
-			result.volume += twice / 2;
-			for (int k = 0; k < 2; ++k)
-				moment[k] += twice * (from[k] + to[k]) / 6;
-		}
-		if (!(result.volume > 0)) return false;
+		const RingArea<R> ring = ringArea<R>(count_, [&](int k, R* uv) POLYTOPE_INLINE_LAMBDA {
+			uv[0] = here_[2 * k];
+			uv[1] = here_[2 * k + 1];
+		});
+		result.volume          = ring.area;
 		for (int k = 0; k < 2; ++k)
-			result.centroid[k] = x[k] + moment[k] / result.volume;
-		return true;
+			result.centroid[k] = ring.centroid[k];
+		return ring.area > 0;
 	}
 
 	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const
@@ -460,6 +458,8 @@ public:
 	}
 
 private:
+	/// Removes what lies beyond line i. A corner beyond it by up to the tolerance stays, and a side that leaves is cut at the line itself, or at such
+	/// a corner. keepAbove() has one line for both: moved by the tolerance it would leave a larger polygon, at the line it would make short sides.
 	POLYTOPE_INLINE void cut(int i, R tolerance)
 	{
 		R a[2], d;

@@ -36,4 +36,35 @@ POLYTOPE_INLINE int keepAbove(int count, const Corner& corner, const Height& hei
 	return kept;
 }
 
+template <class R> struct RingArea {
+	R area        = 0; ///< not negative
+	R centroid[2] = {};
+};
+
+/// Area and centroid of a counter-clockwise ring, by a fan of triangles from its first corner. A ring of no area has its first corner for a centroid, one
+/// without corners the origin.
+/// \param corner corner(k, uv): the ring's k-th of `count`
+template <class R, class Corner> POLYTOPE_INLINE RingArea<R> ringArea(int count, const Corner& corner)
+{
+	RingArea<R> ring;
+	if (count > 0) corner(0, ring.centroid);
+	R moment[2] = { 0, 0 };
+	for (int k = 1; k + 1 < count; ++k) {
+		R one[2], two[2];
+		corner(k, one);
+		corner(k + 1, two);
+		const R u1 = one[0] - ring.centroid[0], v1 = one[1] - ring.centroid[1];
+		const R u2 = two[0] - ring.centroid[0], v2 = two[1] - ring.centroid[1];
+		const R twice = u1 * v2 - v1 * u2;
+		ring.area += twice / 2;
+		moment[0] += twice * (u1 + u2) / 6;
+		moment[1] += twice * (v1 + v2) / 6;
+	}
+	if (ring.area > 0)
+		for (int k = 0; k < 2; ++k)
+			ring.centroid[k] += moment[k] / ring.area;
+	else ring.area = 0; // rounding of a sliver
+	return ring;
+}
+
 } // namespace polytope
