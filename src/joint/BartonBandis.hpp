@@ -41,10 +41,6 @@ public:
 	/// Joint of two different sides: of JRC, JCS and φᵣ the lesser, of δ_peak the greater.
 	static BartonBandis between(const BartonBandis& one, const BartonBandis& other);
 
-	Real roughness() const { return roughness_; }       ///< JRC of the joint's length
-	Real wallStrength() const { return wallStrength_; } ///< JCS of the joint's length [Pa]
-	Real peakDisplacement() const { return peak_; }     ///< δ_peak [m]
-
 	/// φ at this normal stress [Pa] and shear displacement [m].
 	Real frictionAngle(Real stress, Real displacement) const;
 	/// d there.
@@ -56,7 +52,10 @@ private:
 	/// JRC_mob log₁₀(JCS/σ) [radians], such that φ is not above the largest.
 	Real roughnessAngle(Real stress, Real displacement) const;
 
-	Real roughness_, wallStrength_, friction_, peak_;
+	Real roughness_;    ///< JRC of the joint's length
+	Real wallStrength_; ///< JCS of the joint's length [Pa]
+	Real friction_;     ///< φᵣ
+	Real peak_;         ///< δ_peak [m]
 
 	template <class Visit> friend void visitParts(BartonBandis& joint, const Visit& visit)
 	{

@@ -23,10 +23,8 @@ public:
 	/// No springs.
 	ShearLayers() = default;
 
-	int            count() const { return count_; }
-	Real           area(int layer) const { return layer_[layer].area; }
-	const Vector3& displacement(int layer) const { return layer_[layer].displacement; }
-	Real           area() const
+	int  count() const { return count_; }
+	Real area() const
 	{
 		Real sum = 0;
 		for (int k = 0; k < count_; ++k)

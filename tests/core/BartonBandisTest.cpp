@@ -21,20 +21,24 @@ BartonBandis joint(Real length = 0.1, Real roughness = 10)
 	return BartonBandis(values);
 }
 
+/// δ_peak of a joint of this length and its JRC.
+Real peakOf(Real length, Real roughness) { return length / 500 * std::pow(roughness / length, 0.33); }
+
 TEST(BartonBandis, PeakAndResidualAngle)
 {
 	const BartonBandis one = joint();
+	const Real         at  = peakOf(0.1, 10);
 	for (const Real stress : { 1e5, 1e6, 1e7 }) {
 		const Real peak = 30 + 10 * std::log10(100e6 / stress);
-		EXPECT_NEAR(one.frictionAngle(stress, one.peakDisplacement()) / degree, peak, 1e-10);
-		EXPECT_NEAR(one.frictionAngle(stress, 100 * one.peakDisplacement()) / degree, 30, 1e-10);
-		EXPECT_NEAR(one.frictionAngle(stress, 0.3 * one.peakDisplacement()) / degree, 30, 1e-10);
-		EXPECT_NEAR(one.frictionAngle(stress, 0.8 * one.peakDisplacement()) / degree, 30 + 0.875 * (peak - 30), 1e-10);
-		EXPECT_NEAR(one.frictionAngle(stress, 7 * one.peakDisplacement()) / degree, 30 + 0.6 * (peak - 30), 1e-10);
+		EXPECT_NEAR(one.frictionAngle(stress, at) / degree, peak, 1e-10);
+		EXPECT_NEAR(one.frictionAngle(stress, 100 * at) / degree, 30, 1e-10);
+		EXPECT_NEAR(one.frictionAngle(stress, 0.3 * at) / degree, 30, 1e-10);
+		EXPECT_NEAR(one.frictionAngle(stress, 0.8 * at) / degree, 30 + 0.875 * (peak - 30), 1e-10);
+		EXPECT_NEAR(one.frictionAngle(stress, 7 * at) / degree, 30 + 0.6 * (peak - 30), 1e-10);
 	}
-	EXPECT_NEAR(one.frictionAngle(2e8, one.peakDisplacement()) / degree, 30, 1e-10); // above JCS
-	EXPECT_NEAR(one.frictionAngle(1, one.peakDisplacement()) / degree, 70, 1e-10);   // almost without stress
-	EXPECT_NEAR(one.frictionAngle(0, one.peakDisplacement()) / degree, 70, 1e-10);
+	EXPECT_NEAR(one.frictionAngle(2e8, at) / degree, 30, 1e-10); // above JCS
+	EXPECT_NEAR(one.frictionAngle(1, at) / degree, 70, 1e-10);   // almost without stress
+	EXPECT_NEAR(one.frictionAngle(0, at) / degree, 70, 1e-10);
 	EXPECT_NEAR(joint(0.1, 0).frictionAngle(1e6, 1e-3) / degree, 30, 1e-10); // smooth
 	EXPECT_EQ(joint(0.1, 0).dilationAngle(1e6, 1e-3), 0);
 }
@@ -42,7 +46,7 @@ TEST(BartonBandis, PeakAndResidualAngle)
 TEST(BartonBandis, DilationIsHalfToAllOfTheRoughnessAngle)
 {
 	const BartonBandis one  = joint();
-	const Real         peak = one.peakDisplacement();
+	const Real         peak = peakOf(0.1, 10);
 	// M = 10/(12 log) + 0.7: 1.533 at σ = 10 MPa, 1.117 at 1 MPa, at most 2, at least 1
 	EXPECT_NEAR(one.dilationAngle(1e7, peak) / degree, 10 / (10. / 12 + 0.7), 1e-10);
 	EXPECT_NEAR(one.dilationAngle(1e6, peak) / degree, 20 / (10. / 24 + 0.7), 1e-10);
@@ -54,13 +58,19 @@ TEST(BartonBandis, DilationIsHalfToAllOfTheRoughnessAngle)
 
 TEST(BartonBandis, LongerJointsAreSmootherWeakerAndPeakLater)
 {
-	EXPECT_NEAR(joint().roughness(), 10, 1e-14);
-	EXPECT_NEAR(joint().wallStrength(), 100e6, 1e-6);
-	EXPECT_NEAR(joint().peakDisplacement(), 0.1 / 500 * std::pow(100., 0.33), 1e-15);
-	const BartonBandis ten = joint(1);
-	EXPECT_NEAR(ten.roughness(), 10 * std::pow(10., -0.2), 1e-12);
-	EXPECT_NEAR(ten.wallStrength(), 100e6 * std::pow(10., -0.3), 1e-4);
-	EXPECT_NEAR(ten.peakDisplacement(), 1. / 500 * std::pow(ten.roughness(), 0.33), 1e-15);
+	for (const Real length : { 0.1, 1. }) {
+		const BartonBandis one   = joint(length);
+		const Real         scale = length / 0.1, roughness = 10 * std::pow(scale, -0.2), strength = 100e6 * std::pow(scale, -0.3);
+		const Real         peak = peakOf(length, roughness);
+		const auto above = [&](Real stress, Real displacement) { return one.frictionAngle(stress, displacement) / degree - 30; };
+		for (const Real stress : { 1e5, 1e6, 1e7 })
+			EXPECT_NEAR(above(stress, peak), roughness * std::log10(strength / stress), 1e-10);
+		EXPECT_GT(above(0.999 * strength, peak), 0);
+		EXPECT_NEAR(above(1.001 * strength, peak), 0, 1e-12);
+		// the angle is largest at the peak, with a bend to either side
+		EXPECT_LT(above(1e6, 0.999 * peak), above(1e6, peak));
+		EXPECT_LT(above(1e6, 1.001 * peak), above(1e6, peak));
+	}
 }
 
 TEST(BartonBandis, MobilisedRoughnessRisesToThePeakAndFallsAfterIt)
