@@ -62,15 +62,15 @@ POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R*
 			most     = maxOf<R>(most, value[k]);
 		}
 		if (!(most > 0)) continue;
-		const auto corner = [&](int k, R* uv) {
+		const auto corner = [&](int k, R* uv) POLYTOPE_INLINE_LAMBDA {
 			uv[0] = here[2 * k];
 			uv[1] = here[2 * k + 1];
 		};
-		const auto put = [&](int k, const R* uv) {
+		const auto put = [&](int k, const R* uv) POLYTOPE_INLINE_LAMBDA {
 			there[2 * k]     = uv[0];
 			there[2 * k + 1] = uv[1];
 		};
-		const int kept = keepAbove<R>(count, corner, [&](int k, const R*) { return -value[k]; }, put);
+		const int kept = keepAbove<R>(count, corner, [&](int k, const R*) POLYTOPE_INLINE_LAMBDA { return -value[k]; }, put);
 		R*        swap = here;
 		here           = there;
 		there          = swap;

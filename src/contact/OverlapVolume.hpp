@@ -464,7 +464,7 @@ private:
 	{
 		R a[2], d;
 		planes_.plane(i, a, d);
-		const auto beyond = [&](int v) { return a[0] * here_[2 * v] + a[1] * here_[2 * v + 1] - d; };
+		const auto beyond = [&](int v) POLYTOPE_INLINE_LAMBDA { return a[0] * here_[2 * v] + a[1] * here_[2 * v + 1] - d; };
 		int        kept   = 0;
 		R          before = beyond(count_ - 1);
 		for (int v = 0, last = count_ - 1; v < count_; last = v++) {

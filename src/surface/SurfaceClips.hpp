@@ -77,9 +77,9 @@ private:
 	{
 		const int from = now_, to = 1 - now_;
 		count_ = keepAbove<R>(
-		        count_, [&](int k, R* uv) { get(from, k, uv); },
-		        [&](int, const R* uv) { return rest + rate[0] * uv[0] + rate[1] * uv[1]; },
-		        [&](int k, const R* uv) { put(to, k, uv); });
+		        count_, [&](int k, R* uv) POLYTOPE_INLINE_LAMBDA { get(from, k, uv); },
+		        [&](int, const R* uv) POLYTOPE_INLINE_LAMBDA { return rest + rate[0] * uv[0] + rate[1] * uv[1]; },
+		        [&](int k, const R* uv) POLYTOPE_INLINE_LAMBDA { put(to, k, uv); });
 		now_ = to;
 	}
 
