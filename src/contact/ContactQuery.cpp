@@ -3,12 +3,11 @@
 
 #include "contact/ContactKernel.hpp"
 #include "contact/PairOrder.hpp"
+#include "numbers/InstructionSet.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <new>
-#include <string>
 
 namespace polytope {
 
@@ -67,8 +66,7 @@ namespace {
 		const char* name;
 	};
 
-	// The kernel is compiled once per instruction set through function attributes, not per-file flags: inline functions
-	// of libraries that the linker merges across files stay baseline code.
+	// once per instruction set (InstructionSet.hpp)
 #if defined(__x86_64__) && POLYTOPE_REAL_IS_DOUBLE
 #define POLYTOPE_KERNEL(NAME, TARGET, WIDTH)                                                                                               \
 	template <int D, bool Surface>                                                                                                     \
@@ -82,18 +80,15 @@ namespace {
 	POLYTOPE_KERNEL(kernelV3, "arch=x86-64-v3", 4)
 	POLYTOPE_KERNEL(kernelV1, "arch=x86-64", 2)
 
-	/// The best that the machine has, and, where POLYTOPE_INSTRUCTION_SET in the environment names a lesser one, that: for tests of each.
 	Kernels chooseKernels()
 	{
-		const char*       asked  = std::getenv("POLYTOPE_INSTRUCTION_SET");
-		const std::string name   = asked ? asked : "";
-		const bool        upToV3 = name == "AVX2", upToV1 = name == "SSE2";
-		__builtin_cpu_init();
-		if (__builtin_cpu_supports("x86-64-v4") && !upToV3 && !upToV1)
-			return { { kernelV4<2, false>, kernelV4<2, true> }, { kernelV4<3, false>, kernelV4<3, true> }, "AVX-512" };
-		if (__builtin_cpu_supports("x86-64-v3") && !upToV1)
-			return { { kernelV3<2, false>, kernelV3<2, true> }, { kernelV3<3, false>, kernelV3<3, true> }, "AVX2" };
-		return { { kernelV1<2, false>, kernelV1<2, true> }, { kernelV1<3, false>, kernelV1<3, true> }, "SSE2" };
+		switch (instructionSetOfMachine()) {
+			case InstructionSet::V4:
+				return { { kernelV4<2, false>, kernelV4<2, true> }, { kernelV4<3, false>, kernelV4<3, true> }, "AVX-512" };
+			case InstructionSet::V3:
+				return { { kernelV3<2, false>, kernelV3<2, true> }, { kernelV3<3, false>, kernelV3<3, true> }, "AVX2" };
+			default: return { { kernelV1<2, false>, kernelV1<2, true> }, { kernelV1<3, false>, kernelV1<3, true> }, "SSE2" };
+		}
 	}
 #else
 	template <int D, bool Surface>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shear/ShearStrength.hpp"
 
+#include "numbers/InstructionSet.hpp"
 #include "numbers/Lanes.hpp"
 #include "shear/ShearTolerances.hpp"
 
@@ -241,52 +242,95 @@ void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vecto
 	}
 }
 
-/// The sums of (1) at points in the triangles between the centre and the edges, several triangles at once: the direction of slip changes
-/// little over the outline. So little that it is a polynomial of low degree; `precise`: of one of higher degree.
-Vector3 ShearStrength::byPoints(const Vector3& slip, bool precise, Matrix3* slope) const
-{
-	constexpr int width          = isVector<Real, 4> ? 4 : 1;
-	using V                      = typename Lanes<Real, width>::Type;
-	const GaussLegendre& rule    = precise ? GaussLegendre::five() : GaussLegendre::three();
-	V                    sums[9] = {}; // ∫ τ d, its moment, and the six of the slope
-	for (int k = 0; k < count_; k += width) {
-		Real rows[5][width]; // of a triangle that is not there: no area
-		for (int t = 0; t < width; ++t) {
-			const bool    there = k + t < count_;
-			const Vector2 from = corner(there ? k + t : 0), along = corner(there && k + t + 1 < count_ ? k + t + 1 : 0) - from;
-			rows[0][t] = from[0];
-			rows[1][t] = from[1];
-			rows[2][t] = along[0];
-			rows[3][t] = along[1];
-			rows[4][t] = there ? cross(from, along) : Real(0);
-		}
-		const V from0 = load<Real, width>(rows[0]), from1 = load<Real, width>(rows[1]), along0 = load<Real, width>(rows[2]),
-		        along1 = load<Real, width>(rows[3]), twice = load<Real, width>(rows[4]);
-		for (int j = 0; j < rule.points; ++j) {
-			const V edge0 = from0 + rule.place[j] * along0, edge1 = from1 + rule.place[j] * along1,
-			        rise = gradient_[0] * edge0 + gradient_[1] * edge1;
-			for (int i = 0; i < rule.points; ++i) {
-				const V x0 = rule.place[i] * edge0, x1 = rule.place[i] * edge1;
-				const V share
-				        = rule.weight[i] * rule.weight[j] * rule.place[i] * twice * (atCentre_ + rule.place[i] * rise);
-				const V v0 = slip[0] - slip[2] * x1, v1 = slip[1] + slip[2] * x0,
-				        speed = squareRoot<Real, width>(v0 * v0 + v1 * v1), d0 = v0 / speed, d1 = v1 / speed;
-				sums[0] += share * d0;
-				sums[1] += share * d1;
-				sums[2] += share * (x0 * d1 - x1 * d0);
-				if (!slope) continue;
-				const V part = share / speed, arm = x0 * d0 + x1 * d1; // of the direction across
-				sums[3] += part * d1 * d1;
-				sums[4] -= part * d1 * d0;
-				sums[5] += part * d0 * d0;
-				sums[6] -= part * d1 * arm;
-				sums[7] += part * d0 * arm;
-				sums[8] += part * arm * arm;
+namespace {
+
+	/// What the sums of (1) at points are made of, in plain numbers.
+	struct PointSums {
+		const Real*          corners; ///< u, v of each, from `shift`
+		int                  count;
+		Real                 shift[2], atCentre, gradient[2], slip[3];
+		const GaussLegendre* rule;
+		bool                 slope;  ///< whether its sums are wanted, too
+		Real                 all[9]; ///< ∫ τ d, its moment, and the six of the slope
+	};
+
+	/// Several triangles between the centre and the edges at once.
+	template <int width> POLYTOPE_INLINE void addAtPoints(PointSums& in)
+	{
+		using V             = typename Lanes<Real, width>::Type;
+		V           sums[9] = {};
+		auto        corner  = [&](int k, int m) POLYTOPE_INLINE_LAMBDA { return in.corners[2 * k + m] + in.shift[m]; };
+		const auto& place   = in.rule->place;
+		const auto& weight  = in.rule->weight;
+		for (int k = 0; k < in.count; k += width) {
+			Real rows[5][width]; // of a triangle that is not there: no area
+			for (int t = 0; t < width; ++t) {
+				const bool there = k + t < in.count;
+				const int  one = there ? k + t : 0, two = there && k + t + 1 < in.count ? k + t + 1 : 0;
+				for (int m = 0; m < 2; ++m) {
+					rows[m][t]     = corner(one, m);
+					rows[2 + m][t] = corner(two, m) - rows[m][t];
+				}
+				rows[4][t] = there ? rows[0][t] * rows[3][t] - rows[1][t] * rows[2][t] : Real(0);
+			}
+			const V from0 = load<Real, width>(rows[0]), from1 = load<Real, width>(rows[1]), along0 = load<Real, width>(rows[2]),
+			        along1 = load<Real, width>(rows[3]), twice = load<Real, width>(rows[4]);
+			for (int j = 0; j < in.rule->points; ++j) {
+				const V edge0 = from0 + place[j] * along0, edge1 = from1 + place[j] * along1,
+				        rise = in.gradient[0] * edge0 + in.gradient[1] * edge1;
+				for (int i = 0; i < in.rule->points; ++i) {
+					const V x0 = place[i] * edge0, x1 = place[i] * edge1;
+					const V share = weight[i] * weight[j] * place[i] * twice * (in.atCentre + place[i] * rise);
+					const V v0 = in.slip[0] - in.slip[2] * x1, v1 = in.slip[1] + in.slip[2] * x0,
+					        speed = squareRoot<Real, width>(v0 * v0 + v1 * v1), d0 = v0 / speed, d1 = v1 / speed;
+					sums[0] += share * d0;
+					sums[1] += share * d1;
+					sums[2] += share * (x0 * d1 - x1 * d0);
+					if (!in.slope) continue;
+					const V part = share / speed, arm = x0 * d0 + x1 * d1; // of the direction across
+					sums[3] += part * d1 * d1;
+					sums[4] -= part * d1 * d0;
+					sums[5] += part * d0 * d0;
+					sums[6] -= part * d1 * arm;
+					sums[7] += part * d0 * arm;
+					sums[8] += part * arm * arm;
+				}
 			}
 		}
+		horizontalSums<Real, width>(sums, in.all);
 	}
-	Real all[9];
-	horizontalSums<Real, width>(sums, all);
+
+	using AddAtPoints = void (*)(PointSums&);
+
+#if defined(__x86_64__) && POLYTOPE_REAL_IS_DOUBLE
+	__attribute__((target("arch=x86-64-v4"))) void addAtPointsV4(PointSums& in) { addAtPoints<4>(in); }
+	__attribute__((target("arch=x86-64-v3"))) void addAtPointsV3(PointSums& in) { addAtPoints<4>(in); }
+	void                                           addAtPointsV1(PointSums& in) { addAtPoints<4>(in); }
+
+	AddAtPoints choose()
+	{
+		switch (instructionSetOfMachine()) {
+			case InstructionSet::V4: return addAtPointsV4;
+			case InstructionSet::V3: return addAtPointsV3;
+			default: return addAtPointsV1;
+		}
+	}
+#else
+	AddAtPoints choose() { return addAtPoints<1>; }
+#endif
+
+	const AddAtPoints sumAtPoints = choose();
+
+} // namespace
+
+/// The sums of (1) at points in the triangles between the centre and the edges: the direction of slip changes little over the outline. So
+/// little that it is a polynomial of low degree; `precise`: of one of higher degree.
+Vector3 ShearStrength::byPoints(const Vector3& slip, bool precise, Matrix3* slope) const
+{
+	PointSums sums { corner_->data(), count_, { shift_[0], shift_[1] }, atCentre_, { gradient_[0], gradient_[1] },
+		{ slip[0], slip[1], slip[2] }, precise ? &GaussLegendre::five() : &GaussLegendre::three(), slope != nullptr, {} };
+	sumAtPoints(sums);
+	const Real(&all)[9] = sums.all;
 	if (slope) *slope << all[3], all[4], all[6], all[4], all[5], all[7], all[6], all[7], all[8];
 	return Vector3(all[0], all[1], all[2]);
 }
