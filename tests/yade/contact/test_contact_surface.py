@@ -250,10 +250,15 @@ def errorsOfEnergy(seconds):
 
 
 @pytest.mark.parametrize('seed', [1, 2])
-@pytest.mark.parametrize('model, most', [('foundation', 1e-4), ('spring', 1e-3), ('yadesOwn', 1e-3)])
+@pytest.mark.parametrize('model, most', [('foundation', 5e-5), ('spring', 1e-3), ('yadesOwn', 1e-3)])
 def testAGasOf64KeepsItsEnergyAtTheDefaultStep(model, most, seed):
+	"""The root mean square over the time. The largest error is a matter of chance, for rounding alone makes another gas of it after some hundred
+	collisions: twice as much is allowed for it."""
 	gasOf(model, 4, seed)
-	assert max(map(abs, errorsOfEnergy(4))) < most
+	errors = errorsOfEnergy(4)
+	mean, largest = math.sqrt(sum(error**2 for error in errors) / len(errors)), max(map(abs, errors))
+	print(f'{model}, seed {seed}: root mean square {mean:.2g}, largest {largest:.2g}')
+	assert mean < most and largest < 2 * most
 
 
 @pytest.mark.parametrize('model, step', [('foundation', 9e-5), ('spring', 5e-5)])
