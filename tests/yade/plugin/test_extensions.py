@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Classes of others in a library of their own: the examples of docs/extending.md, built against the installed headers alone, and libraries that do not fit."""
 
+import fcntl
 import json
 import math
 import os
@@ -32,13 +33,15 @@ def built(name, variant='as it is', prefix=overlay, options=(), examples=project
 	folder = build / 'testExtensions' / variant.replace(' ', '_') / name
 	source, made = folder / 'sources', folder / 'build'
 	source.mkdir(parents=True, exist_ok=True)
-	for path in (examples / name).iterdir():
-		text = changed.get(path.stem, path.read_text())
-		if not (source / path.name).is_file() or (source / path.name).read_text() != text:
-			(source / path.name).write_text(text)
-	run('cmake', '-S', source, '-B', made, '-G', 'Ninja', f'-DCMAKE_PREFIX_PATH={prefix}', '-DCMAKE_BUILD_TYPE=Release', *options)
-	run('ninja', '-C', made)
-	assert not re.search(rf'{project}/(src|pkg)/', run('ninja', '-C', made, '-t', 'deps')), 'it has seen source files'
+	with (folder / 'lock').open('w') as lock:  # tests that run side by side need the same library
+		fcntl.flock(lock, fcntl.LOCK_EX)
+		for path in (examples / name).iterdir():
+			text = changed.get(path.stem, path.read_text())
+			if not (source / path.name).is_file() or (source / path.name).read_text() != text:
+				(source / path.name).write_text(text)
+		run('cmake', '-S', source, '-B', made, '-G', 'Ninja', f'-DCMAKE_PREFIX_PATH={prefix}', '-DCMAKE_BUILD_TYPE=Release', *options)
+		run('ninja', '-C', made)
+		assert not re.search(rf'{project}/(src|pkg)/', run('ninja', '-C', made, '-t', 'deps')), 'it has seen source files'
 	return made / f'{name}.so'
 
 
