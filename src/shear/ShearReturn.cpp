@@ -114,15 +114,9 @@ Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness
 		const Vector3 change   = Matrix3(motion.slope + stiffness).ldlt().solve(gradient);
 		const Real    slope = change.dot(gradient), square = motion.slip.dot(stiffness * motion.slip);
 		if (!(slope > 0)) break;
-		if (slope <= Real(tolerance::shearReturn * tolerance::shearReturn)
-		                * square) { // so short that the derivative says what resists there
-			motion.slip -= change;
-			motion.resistance -= motion.slope * change;
-			break;
-		}
-		// so near that rounding decides what is less work, a whole step is right: each doubles the digits until nothing is left to gain
+		// so near that rounding decides what is less work, or that a whole step is right: each doubles the digits until nothing is left to gain
 		const Real room = Real(tolerance::sumsOfWork) * abs(motion.slip.dot(load));
-		const bool near = slope <= 4 * room;
+		const bool near = slope <= Real(tolerance::shearReturn * tolerance::shearReturn) * square || slope <= 4 * room;
 		if (near && !(slope < lastSlope / 4)) break;
 		if (near) lastSlope = slope;
 		const Real now  = work(motion);

@@ -37,7 +37,7 @@ constexpr double shearTwoPoints   = 10000;
 
 /// Length of a Newton step, as a part of the slip and measured by the energy, that counts as short: a step of this length leaves what
 /// rounding leaves, except where the centre of rotation lies on the outline.
-constexpr double shearReturn = 1e-8;
+constexpr double shearReturn = 1e-9;
 
 /// Distance between the load that stays and the limit surface, as a part of the load and measured by the energy, that a short Newton step
 /// may leave; more calls for another step. It is some times the rounding of the sums over edges.
