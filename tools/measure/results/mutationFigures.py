@@ -30,12 +30,14 @@ def taken(source):
 
 
 def withKept(text, path):
-	"""New results with those of other mutants, as *path* has them: kernel and law may be run apart, and a mutant that survived stays."""
+	"""New results with those of other mutants, as *path* has them: kernel and law may be run apart, and a mutant that survived stays.
+	Those whose line is no longer in the sources are left out.
+	"""
 	if not path.exists():
 		return text
 	new = list(csv.DictReader(io.StringIO(text)))
 	again = {tuple(row[key] for key in ofMutant) for row in new}
-	found = [row for row in rows(path) if tuple(row[key] for key in ofMutant) not in again] + new
+	found = [row for row in rows(path) if tuple(row[key] for key in ofMutant) not in again and present(row, path.parents[2])] + new
 	out = io.StringIO()
 	writer = csv.DictWriter(out, columns, lineterminator='\n')
 	writer.writeheader()
@@ -48,24 +50,17 @@ def rows(path):
 		return list(csv.DictReader(found))
 
 
-def present(folder):
-	"""Rows of the mutants whose line is still in the sources, and how many others there are."""
-	found, gone = [], 0
-	for row in rows(folder / file):
-		path = folder.parents[1] / row['file']
-		lines = path.read_text().splitlines() if path.exists() else []
-		if row['source'].split() in map(str.split, lines):
-			found.append(row)
-		else:
-			gone += 1
-	return found, gone
+def present(row, root):
+	"""Whether the line of the mutant is still in the sources."""
+	source = root / row['file']
+	return source.exists() and row['source'].split() in map(str.split, source.read_text().splitlines())
 
 
 def judged(folder):
-	"""(killed, equivalent, open, not judged): rows of the mutants whose line is still there; the last three with *why*."""
+	"""(killed, equivalent, open, not judged): rows of the mutants; the last three with *why*."""
 	known = {tuple(row[key] for key in ofMutant): row for row in rows(judgements)}
 	found = {'killed': [], 'equivalent': [], 'open': [], 'not judged': []}
-	for row in present(folder)[0]:
+	for row in rows(folder / file):
 		said = known.get(tuple(row[key] for key in ofMutant))
 		kind = 'killed' if row['killedBy'] else said['verdict'] if said else 'not judged'
 		found[kind].append({**row, 'why': said['why'] if said else ''})
@@ -79,16 +74,14 @@ def summary(folder):
 	left = some - count['equivalent']
 	share = 100 * count['killed'] / left
 	revisions = collections.defaultdict(set)
-	mutants, gone = present(folder)
-	for row in mutants:
+	for row in rows(folder / file):
 		revisions[row['revision'][:7], row['seed']].add(str(pathlib.PurePosixPath(row['file']).parent))
 	which = '; '.join(
 		f'{", ".join(sorted(places))}: revision {revision}, seed {seed}' for (revision, seed), places in sorted(revisions.items())
 	)
 	text = f'{share:.1f} %'
-	return paragraph(f"""{some} mutants of lines that are still there were run ({which}): {count['killed']} are killed, {count['equivalent']} change
-		no answer. Of the {left} others {text if share >= 95 else bold(text)} are killed; {count['open'] + count['not judged']} survive. The target is 95 %.
-		{gone} more are left out here: the lines that they change are no more.""")
+	return paragraph(f"""{some} mutants were run ({which}): {count['killed']} are killed, {count['equivalent']} change
+		no answer. Of the {left} others {text if share >= 95 else bold(text)} are killed; {count['open'] + count['not judged']} survive. The target is 95 %.""")
 
 
 def byPlace(folder):
