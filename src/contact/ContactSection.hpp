@@ -102,6 +102,19 @@ POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R*
 	return section;
 }
 
+/// The outline of `count` corners, corner(k, p) in the planes' frame, seen from `point` along the contact normal.
+template <class R, class Corner>
+POLYTOPE_INLINE void publishOutline(const PairQuery<R, 3>& q, int count, const R* point, const Corner& corner)
+{
+	ContactOutlineWriter<R> writer(q.frame, q.out.normal, point, q.workspace.points(count));
+	for (int k = 0; k < count; ++k) {
+		R p[3];
+		corner(k, p);
+		writer.add(p);
+	}
+	writer.publish(q.out);
+}
+
 /// Area (2-D: times the smaller thickness), centroid and, seen from `point` along the contact normal, outline of the section through
 /// `origin`, normal to n, of what the planes bound. `buffer`: room for sectionNumbers().
 template <class R, int D>
@@ -115,15 +128,11 @@ POLYTOPE_INLINE void contactSection(
 	q.out.sectionCentroid = worldPoint<R, D>(q.in, f, toBody<R, D>(f, f.home, section.centroid));
 	if constexpr (D == 3) {
 		if (!q.settings.outline) return;
-		const Rotation<R, 3>    axes = axesAround<R, 3>(n);
-		ContactOutlineWriter<R> writer(f, q.out.normal, point, q.workspace.points(section.count));
-		for (int k = 0; k < section.count; ++k) {
-			R p[3];
+		const Rotation<R, 3> axes = axesAround<R, 3>(n);
+		publishOutline<R>(q, section.count, point, [&](int k, R* p) POLYTOPE_INLINE_LAMBDA {
 			for (int m = 0; m < 3; ++m)
 				p[m] = origin[m] + section.corner[2 * k] * axes.m[0][m] + section.corner[2 * k + 1] * axes.m[1][m];
-			writer.add(p);
-		}
-		writer.publish(q.out);
+		});
 	}
 }
 

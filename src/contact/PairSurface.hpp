@@ -4,6 +4,7 @@
 #include "contact/ContactSection.hpp"
 #include "contact/ContactTypes.hpp"
 #include "program/LpBasis.hpp"
+#include "surface/FeasibleOutline.hpp"
 #include "surface/FeasibleSums.hpp"
 #include "surface/NearPlanes.hpp"
 
@@ -13,16 +14,22 @@ namespace polytope {
 /// What the contact surface of a pair is found from, and the surface.
 template <class R, int D> struct PairSurface {
 	SurfaceSums<R, D>     sums;
-	SurfaceOnPiece<R, D>* on = nullptr; ///< if internal faces are left out
-	KeptVertices*         kept;         ///< of the last step, and then of this; or null
-	bool                  energy;       ///< whether the energy is asked for
-	R                     size;         ///< of a body that the overlap lies in
-	PairPlanes<R, D>      nearest;      ///< those of the program that matter
-	R*                    spare;        ///< room for a section
-	R                     deepest;      ///< largest pressure, −s* of the program
+	SurfaceOnPiece<R, D>* on = nullptr;        ///< if internal faces are left out
+	KeptVertices*         kept;                ///< of the last step, and then of this; or null
+	bool                  energy;              ///< whether the energy is asked for
+	bool                  outline;             ///< 3-D: whether the outline is
+	R                     size;                ///< of a body that the overlap lies in
+	PairPlanes<R, D>      nearest;             ///< those of the program that matter
+	R*                    spare;               ///< room for a section
+	const R*              corner;              ///< of its outline in mainPlane(), x, y, z of each
+	int                   corners = 0, stride; ///< 0: not known
+	R                     deepest;             ///< largest pressure, −s* of the program
 	SurfaceStatus         status;
 
-	POLYTOPE_INLINE PairSurface(R size_, bool energy_, KeptVertices* kept_) : kept(kept_), energy(energy_), size(size_) { }
+	POLYTOPE_INLINE PairSurface(R size_, bool energy_, bool outline_, KeptVertices* kept_)
+	        : kept(kept_), energy(energy_), outline(outline_), size(size_)
+	{
+	}
 
 	/// Whether a part of the pressure is on this one of several pieces.
 	POLYTOPE_INLINE bool isParted() const { return on && on->pressure > 0; }
@@ -30,6 +37,17 @@ template <class R, int D> struct PairSurface {
 	/// Part of the solid's contact that is this contact's: all pieces add up to one.
 	POLYTOPE_INLINE R share() const { return !on ? R(1) : sums.pressure > 0 ? on->pressure / sums.pressure : R(0); }
 };
+
+/// The section of the overlap by the main plane.
+template <class R> POLYTOPE_INLINE void outlineOfVertices(const FeasibleBuffers<R>& set, PairSurface<R, 3>& surface)
+{
+	R normal[3], place[3];
+	if (!surface.outline || !mainPlane<R>(surface.sums, normal, place)) return;
+	const FeasibleOutline<R> outline(set, normal, place);
+	surface.corner  = outline.first();
+	surface.stride  = outline.stride();
+	surface.corners = outline.count();
+}
 
 /// Finds the surface from the vertices of the pair's feasible set, whose tight planes are those of the last step or are found anew. False
 /// if they do not say what the surface is.
@@ -47,6 +65,7 @@ POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R
 	if (!near) surface.deepest = vertices.largestPressure();
 	surface.status  = surface.sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None;
 	surface.nearest = set.tightPlanes();
+	if (!surface.on) outlineOfVertices<R>(set, surface);
 	if (near && kept) vertices.keep(*kept, all.first, [near](int row) { return near->rowOfAll(row); });
 	return true;
 }

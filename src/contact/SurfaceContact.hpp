@@ -119,7 +119,7 @@ POLYTOPE_INLINE void surfaceOfPair(const PairQuery<R, D>& q, bool across, Surfac
 		findSurface<R, D, W>(q.planes, optimum, q.workspace, surface);
 		found = !surface.on || slidesOnPieces<R, D>(q.in, q.frame, q.limits, *settings.internal, surface);
 		extended.restore();
-		if (!found) surface = PairSurface<R, D>(q.frame.size, surface.energy, surface.kept);
+		if (!found) surface = PairSurface<R, D>(q.frame.size, surface.energy, surface.outline, surface.kept);
 	}
 }
 
@@ -204,15 +204,21 @@ POLYTOPE_INLINE void publishLoad(
 template <class R>
 POLYTOPE_INLINE void outlineOfSurface(const PairQuery<R, 3>& q, const PairSurface<R, 3>& surface, const SurfaceForce<R, 3>& force)
 {
-	const SurfaceSums<R, 3>& sums   = surface.sums;
-	const Real               all    = q.out.area;
-	const PairPlanes<R, 3>&  bounds = surface.on ? q.planes : surface.nearest; // of the others none bounds the overlap
-	const R                  far    = norm<R, 3>(sums.mainNormal);
-	R                        plane[3], place[3];
-	for (int k = 0; k < 3; ++k) {
-		plane[k] = far > 0 ? sums.mainNormal[k] / far : force.n[k];
-		place[k] = sums.weight > 0 ? sums.mainCentre[k] / sums.weight : force.point[k];
+	if (surface.corners > 0) {
+		publishOutline<R>(q, surface.corners, force.point, [&](int k, R* p) POLYTOPE_INLINE_LAMBDA {
+			for (int m = 0; m < 3; ++m)
+				p[m] = surface.corner[surface.stride * k + m];
+		});
+		return;
 	}
+	const Real              all    = q.out.area;
+	const PairPlanes<R, 3>& bounds = surface.on ? q.planes : surface.nearest; // of the others none bounds the overlap
+	R                       plane[3], place[3];
+	if (!mainPlane<R>(surface.sums, plane, place))
+		for (int k = 0; k < 3; ++k) {
+			plane[k] = force.n[k];
+			place[k] = force.point[k];
+		}
 	if (surface.isParted()) { // within the piece, which may be far from the middle of the solid
 		R above = 0;
 		for (int k = 0; k < 3; ++k)
@@ -234,7 +240,8 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 
 	const bool energy = settings.energy || settings.contactModel == ContactModel::Spring || settings.closure;
 	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(q);
-	PairSurface<R, D>    surface(q.frame.size + grown, energy, settings.warmStart && !across ? &q.memory.surface : nullptr);
+	PairSurface<R, D> surface(
+	        q.frame.size + grown, energy, settings.outline, settings.warmStart && !across ? &q.memory.surface : nullptr);
 	SurfaceOnPiece<R, D> piece;
 	surfaceOfPair<R, D, W>(q, across, piece, surface);
 	out.surfaceKept = surface.sums.kept;

@@ -145,6 +145,8 @@ template <class R, int W, class V> POLYTOPE_INLINE R horizontalMin(const V& v)
 	}
 }
 
+template <class R, int W, class V> POLYTOPE_INLINE R horizontalMax(const V& v) { return -horizontalMin<R, W>(V(-v)); }
+
 /// Four numbers as lanes: put together in registers, since reading a vector back from four numbers just written stalls.
 template <class R> POLYTOPE_INLINE typename Lanes<R, 4>::Type four(R a, R b, R c, R d)
 {
@@ -159,6 +161,49 @@ template <class R, int a, int b, int c, int d, class V> POLYTOPE_INLINE V shuffl
 {
 	if constexpr (isVector<R, 4>) return __builtin_shufflevector(v, v, a, b, c, d);
 	else return { { v[a], v[b], v[c], v[d] } };
+}
+
+/// The columns of four vectors of four.
+template <class V> POLYTOPE_INLINE void transpose(const V (&row)[4], V (&column)[4])
+{
+	const V a = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6), b = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7),
+	        c = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6), d = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
+	column[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+	column[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+	column[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+	column[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
+/// Four numbers each from W places, place(lane), the same of all in one vector.
+template <class R, int W, class Place, class V> POLYTOPE_INLINE void gatherFours(const Place& place, V (&four)[4])
+{
+	if constexpr (W == 4 && isVector<R, W>) {
+		const V row[4] = { load<R, 4>(place(0)), load<R, 4>(place(1)), load<R, 4>(place(2)), load<R, 4>(place(3)) };
+		transpose(row, four);
+	} else
+		for (int m = 0; m < 4; ++m) {
+			R lanes[W];
+			for (int lane = 0; lane < W; ++lane)
+				lanes[lane] = place(lane)[m];
+			four[m] = load<R, W>(lanes);
+		}
+}
+
+/// To W places that follow each other.
+template <class R, int W, class V> POLYTOPE_INLINE void scatterFours(const V (&four)[4], R* to)
+{
+	if constexpr (W == 4 && isVector<R, W>) {
+		V row[4];
+		transpose(four, row);
+		for (int lane = 0; lane < 4; ++lane)
+			store<R, 4>(to + 4 * lane, row[lane]);
+	} else
+		for (int m = 0; m < 4; ++m) {
+			R lanes[W];
+			store<R, W>(lanes, four[m]);
+			for (int lane = 0; lane < W; ++lane)
+				to[4 * lane + m] = lanes[lane];
+		}
 }
 
 /// a × b of the first three lanes.

@@ -92,14 +92,16 @@ Matrix3 bedStiffness(Real stiffness, Real gyrationSquared, const Vector2& offset
 	return k;
 }
 
-Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness, Vector3& load, const Vector3& likely)
+Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness, Vector3& load, Vector3& likely)
 {
 	if (strength.surelyHolds(load)) return Vector3::Zero();
 	const Eigen::LDLT<Matrix3> compliance(stiffness);
 	const Real                 energy = load.dot(compliance.solve(load)); // twice what the bed stores
 	if (!(energy > 0)) return Vector3::Zero();
-	Motion motion(strength, load.dot(likely) > 0 ? likely : likelyMotion(strength, load));
-	if (!findMotionBeyond(strength, stiffness, load, motion)) return Vector3::Zero();
+	Motion     motion(strength, load.dot(likely) > 0 ? likely : likelyMotion(strength, load));
+	const bool slips = findMotionBeyond(strength, stiffness, load, motion);
+	likely           = motion.slip;
+	if (!slips) return Vector3::Zero();
 
 	const auto toBestLength = [&] {
 		const Real length = motion.slip.dot(load - motion.resistance) / motion.slip.dot(stiffness * motion.slip);
@@ -136,6 +138,7 @@ Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness
 	// both are the same; where a slip is small beside the strain, the latter has all digits
 	const bool same = off.dot(compliance.solve(off)) <= Real(tolerance::shearReturn * tolerance::shearReturn) * energy;
 	load            = same ? left : motion.resistance;
+	likely          = motion.slip;
 	return motion.slip;
 }
 

@@ -16,10 +16,8 @@ Matrix3 bedStiffness(Real stiffness, Real gyrationSquared, const Vector2& offset
 /// load that stays (backward Euler for perfect plasticity with an associated flow, Simo & Hughes 1998, "Computational inelasticity",
 /// chapter 3). It always lies on the limit surface, also where the iteration ends early.
 ///
-/// \param likely a slip from which the search begins, such as the last step's, any length; it makes the answer cheaper and changes it by
-/// rounding alone. Zero
-///               if there is none
-Vector3 returnToStrength(
-        const ShearStrength& strength, const Matrix3& stiffness, Vector3& load, const Vector3& likely = Vector3(Vector3::Zero()));
+/// \param likely a motion from which the search begins, of any length: it makes the answer cheaper and changes it by rounding alone. Zero if
+/// there is none. Afterwards the one at which the search has ended, for the next step: the slip, or what comes nearest to one in a face that holds.
+Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness, Vector3& load, Vector3& likely);
 
 } // namespace polytope

@@ -17,10 +17,10 @@
 /// With the centre of rotation c the integrals are sums over edges. An edge at the distance h from c, its points h m + y e from there with
 /// y from y₁ to y₂, ρ² = h² + y², gives the triangle between it and c; along a ray from c the direction of slip is constant and τ linear,
 /// so what is left are integrals of ρ, 1/ρ, 1/ρ³ times powers of y: no quadrature. Where the outline is narrow beside its distance from c
-/// these triangles cancel; lines along it take their place.
+/// these triangles cancel; lines along it take their place (StrengthIntegrals.hpp).
 namespace polytope {
 
-struct GaussLegendre;
+struct SpreadStrength;
 
 class ShearStrength {
 public:
@@ -43,13 +43,10 @@ public:
 	bool surelyHolds(const Vector3& load) const { return load.head<2>().norm() * leastRadius_ + abs(load[2]) <= total_ * leastRadius_; }
 
 private:
-	struct Sums;
-	Vector2 corner(int k) const { return corner_[k] + shift_; }
-	Real    at(const Vector2& x) const { return atCentre_ + gradient_.dot(x); }
-	Vector3 byPoints(const Vector3& slip, bool precise, Matrix3* slope) const;
-	Real    narrownessFrom(const Vector2& pole) const;
-	void    addStrip(const Vector2& from, const Vector2& to, const Vector2& pole, const GaussLegendre& lines, Sums& sums) const;
-	void    addEdge(const Vector2& from, const Vector2& to, Real atPole, Sums& sums) const;
+	SpreadStrength spread() const;
+	Vector2        corner(int k) const { return corner_[k] + shift_; }
+	Vector3        byPoints(const Vector3& slip, bool precise, Matrix3* slope) const;
+	Real           narrownessFrom(const Vector2& pole) const;
 
 	const Vector2* corner_;
 	int            count_;

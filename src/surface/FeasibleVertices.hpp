@@ -83,27 +83,28 @@ public:
 	/// Point and pressure of all vertices; false if they do not meet in a point, or violate a plane.
 	POLYTOPE_INLINE bool placeAll()
 	{
-		R extent = 0;
-		moved_ = largest_ = 0;
-		for (int v = 0; v < buffers_.vertices; ++v) {
-			Crossing c;
-			if (!cross(v, c)) return false;
-			place(v, c);
-			extent = maxOf<R>(extent, closeness(v));
+		const int last    = buffers_.vertices - 1;
+		V         largest = broadcast<R, W>(R(0)), extent = largest, least = broadcast<R, W>(R(padOffset));
+		moved_ = 0;
+		for (int first = 0; first <= last; first += W) {
+			V x[4];
+			if (!placeSeveral(first, last, x)) return false;
+			largest = maxOf(largest, x[3]);
+			least   = minOf(least, x[3]);
+			extent  = maxOf(extent, V(absolute(x[0]) + absolute(x[1]) + absolute(x[2])));
 		}
-		V least = broadcast<R, W>(R(padOffset));
-		for (int v = 0; v < buffers_.vertices; ++v) {
+		for (int v = 0; v <= last; ++v) {
 			const R* const p = buffers_.point + 4 * v;
 			const V x[3] = { broadcast<R, W>(p[0]), broadcast<R, W>(p[1]), broadcast<R, W>(p[2]) }, s = broadcast<R, W>(p[3]);
-			least    = minOf(least, s);
-			largest_ = maxOf<R>(largest_, p[3]);
 			for (int k = 0; k < planes_.total; k += W) {
 				V a[3];
 				least = minOf(least, V(slacksOf<R, 3, W>(planes_, k, x, a) - s));
 			}
 		}
+		largest_ = horizontalMax<R, W>(largest);
 		// a pressure is no more certain than a rounding over the overlap's thickness: a vertex need not be
-		return horizontalMin<R, W>(least) >= -extent && moved_ * largest_ <= size_;
+		return horizontalMin<R, W>(least) >= -R(tolerance::feasibleVertex) * (size_ + horizontalMax<R, W>(extent))
+		        && moved_ * largest_ <= size_;
 	}
 
 	/// The largest pressure of those that placeAll() has placed.
@@ -111,6 +112,51 @@ public:
 
 private:
 	using V = typename Lanes<R, W>::Type;
+
+	static_assert(Buffers::mostVertices % W == 0);
+
+	/// Places W vertices from this one on, the last one again where there are no more. `x`: x, y, z and s of each.
+	POLYTOPE_INLINE bool placeSeveral(int first, int last, V (&x)[4])
+	{
+		const auto vertex = [&](int lane) { return first + lane < last ? first + lane : last; };
+		V          row[4][4];
+		for (int slot = 0; slot < 4; ++slot)
+			gatherFours<R, W>([&](int lane) { return buffers_.plane + 4 * buffers_.tight[vertex(lane)][slot]; }, row[slot]);
+		V volume = broadcast<R, W>(0);
+		for (int k = 0; k < 3; ++k)
+			for (int m = 0; m < 4; ++m)
+				row[k][m] -= row[3][m];
+		for (int m = 0; m < 3; ++m)
+			x[m] = volume;
+		for (int k = 0; k < 3; ++k) {
+			const V(&a)[4] = row[(k + 1) % 3], (&b)[4] = row[(k + 2) % 3];
+			for (int m = 0; m < 3; ++m) {
+				const int l = (m + 1) % 3, n = (m + 2) % 3;
+				const V   across = a[l] * b[n] - a[n] * b[l];
+				x[m] += across * row[k][3];
+				if (k == 0) volume += across * row[0][m];
+			}
+		}
+		const V inverse = broadcast<R, W>(1) / volume;
+		x[3]            = row[3][3]; // zero for the plane of no pressure
+		for (int m = 0; m < 3; ++m) {
+			x[m] *= inverse;
+			x[3] -= row[3][m] * x[m];
+		}
+		scatterFours<R, W>(x, buffers_.point + 4 * first);
+		const R mayBeSharp = 8 * R(tolerance::sharpVertex); // differences of unit vectors are no longer than 2
+		if (horizontalMin<R, W>(absolute(volume)) >= mayBeSharp) return true;
+		R volumes[W];
+		store<R, W>(volumes, volume);
+		for (int lane = 0; lane < W && first + lane <= last; ++lane) {
+			if (abs(volumes[lane]) >= mayBeSharp) continue;
+			Crossing c;
+			if (!cross(first + lane, c)) return false;
+			place(first + lane, c);
+		}
+		gatherFours<R, W>([&](int lane) { return buffers_.point + 4 * vertex(lane); }, x);
+		return true;
+	}
 
 	/// One of the two planes of a vertex that are most nearly parallel: their difference is exact.
 	POLYTOPE_APART int nearlyParallel(int v) const

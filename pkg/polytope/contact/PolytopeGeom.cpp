@@ -36,7 +36,7 @@ polytope::PairMemory PolytopeGeom::memory() const
 	return memory;
 }
 
-void PolytopeGeom::remember(const polytope::PairMemory& memory)
+void PolytopeGeom::remember(const polytope::PairMemory& memory, bool sameSurface)
 {
 	constexpr int most = std::numeric_limits<std::uint16_t>::max();
 	const bool    fits = std::all_of(memory.basis.begin(), memory.basis.end(), [](int code) { return code >= 0 && code <= most; });
@@ -46,7 +46,7 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	point1    = memory.point[0];
 	point2    = memory.point[1];
 	direction = hasPoint ? memory.dualDirection : memory.weights;
-	surface.set(memory.surface);
+	if (!sameSurface) surface.set(memory.surface);
 }
 
 std::vector<Vector3r> PolytopeGeom::cornersOfOutline() const
@@ -244,6 +244,7 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	}
 	polytope::ContactResult result;
 	polytope::contactQuery(pair, settings, memory, workspace, result);
+	bool sameSurface = result.surfaceKept;
 	if (result.inContact && settings.bounding) {
 		const TouchingPair touching { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
 			{ frame1.rotation, rotation2 }, frame1.origin + bounding.point, -result.infeasibility };
@@ -252,10 +253,11 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 			internal          = geom.internalPlanes();
 			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(pair, settings, memory, workspace, result);
+			sameSurface = false;
 		}
 	}
 	if (result.inContact) giveShare(math::max(result.share, Real(polytope::tolerance::leastShareOfSupport)), geom, *c, result);
-	geom.remember(memory);
+	geom.remember(memory, sameSurface);
 	return write(result, frame1.origin, state1, state2, shift2, force, c);
 }
 

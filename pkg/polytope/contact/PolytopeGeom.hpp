@@ -61,8 +61,8 @@ public:
 	StoredOutline outline;
 
 	polytope::PairMemory memory() const;
-	/// A basis of planes beyond the 32767th is not kept: the next step starts without one.
-	void remember(const polytope::PairMemory& memory);
+	/// A basis of planes beyond the 32767th is not kept: the next step starts without one. `sameSurface`: the vertices are those known.
+	void remember(const polytope::PairMemory& memory, bool sameSurface);
 	/// Planes that neighbours cover (InternalFaces.hpp), as internalFaces has them.
 	polytope::InternalPlanes internalPlanes() const;
 	/// Whether they differ from those known.

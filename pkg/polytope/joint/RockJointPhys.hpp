@@ -182,8 +182,8 @@ friction, peak or residual.)""",
 		((Real, twistingViscous, 0, Attr::readonly, "Viscous part of :yref:`twistingMoment<RockJointPhys.twistingMoment>` [N·m]."))
 		((Real, twistingStiffness, 0, Attr::readonly, "Stiffness of the bed against turning about the normal, :yref:`ks<NormShearPhys.ks>` "
 		        "times the mean square of the distance from the area's centroid [N·m/rad]; 0 for polygons and spheres."))
-		((Vector3r, likelySlip, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Slip of the last step that had any, along the outline's "
-		        "axes [m] and about the normal [rad]: where the search for the next begins"))
+		((Vector3r, likelySlip, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Motion at which the last search for slip has ended, "
+		        "along the outline's axes and about the normal, of any length: where the next begins"))
 		((Layers, shearLayers, , (Attr::readonly | Attr::hidden), "Displacement of the bed's springs by when they joined; none: all alike"))
 		((Vector3r, slip, Vector3r::Zero(), Attr::readonly, "Plastic slip of body 2 relative to body 1 since the contact was made [m], "
 		        "turned with the normal: net motion along the joint without the elastic part, also while the joint is open. Never more than "

@@ -156,9 +156,8 @@ bool Shear::limit(const RockJointPhys& phys, Real normal)
 	const auto              bed  = polytope::bedStiffness(stiffness_, gyration_, moments_.centroid - centre);
 	const polytope::Vector3 slip = polytope::returnToStrength(spread, bed, load, likelySlip_);
 	if (slip == polytope::Vector3::Zero()) return false;
-	likelySlip_ = slip;
-	force_      = inWorld(polytope::Vector2(load[0], load[1]));
-	twist_      = twistOf(load, centre);
+	force_ = inWorld(polytope::Vector2(load[0], load[1]));
+	twist_ = twistOf(load, centre);
 	layers_.move((before - force_) / stiffness_);
 	return true;
 }

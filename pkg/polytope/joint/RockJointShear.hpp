@@ -79,7 +79,7 @@ private:
 	Real                                   twist_, lastTwist_;
 	Real                                   stiffness_, twistingStiffness_; ///< k_s [N/m], k_s ρ² [N m/rad]
 	Real                                   areaBefore_, perArea_ = 0;      ///< perArea_: 0 for a stiffness per contact
-	Vector3r                               likelySlip_;                    ///< of the last step that had any
+	Vector3r                               likelySlip_;                    ///< where the search for slip has ended
 	std::optional<polytope::ShearStrength> spread_;                        ///< the last one that was asked for
 	polytope::ShearLayers                  layers_;                        ///< of a stiffness per area
 	Real                                   before_       = 0;
