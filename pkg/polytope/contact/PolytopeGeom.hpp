@@ -62,7 +62,7 @@ public:
 
 	polytope::PairMemory memory() const;
 	/// A basis of planes beyond the 32767th is not kept: the next step starts without one. `sameSurface`: the vertices are those known.
-	void remember(const polytope::PairMemory& memory, bool sameSurface);
+	void remember(const polytope::PairMemory& memory, bool sameSurface = false);
 	/// Planes that neighbours cover (InternalFaces.hpp), as internalFaces has them.
 	polytope::InternalPlanes internalPlanes() const;
 	/// Whether they differ from those known.
