@@ -107,7 +107,6 @@ private:
 	bool         turned_ = false;
 	std::uint8_t plane_[most][2]; ///< of a corner
 	std::uint8_t on_[most][2];    ///< corners of a plane
-	std::uint8_t order_[most];
 };
 
 } // namespace polytope

@@ -77,7 +77,7 @@ public:
 	R closeness(int v) const
 	{
 		const R* const p = buffers_.point + 4 * v;
-		return R(tolerance::feasibleVertex) * (size_ + abs(p[0]) + abs(p[1]) + abs(p[2]));
+		return closenessAt(abs(p[0]) + abs(p[1]) + abs(p[2]));
 	}
 
 	/// Point and pressure of all vertices; false if they do not meet in a point, or violate a plane.
@@ -103,8 +103,7 @@ public:
 		}
 		largest_ = horizontalMax<R, W>(largest);
 		// a pressure is no more certain than a rounding over the overlap's thickness: a vertex need not be
-		return horizontalMin<R, W>(least) >= -R(tolerance::feasibleVertex) * (size_ + horizontalMax<R, W>(extent))
-		        && moved_ * largest_ <= size_;
+		return horizontalMin<R, W>(least) >= -closenessAt(horizontalMax<R, W>(extent)) && moved_ * largest_ <= size_;
 	}
 
 	/// The largest pressure of those that placeAll() has placed.
@@ -114,6 +113,9 @@ private:
 	using V = typename Lanes<R, W>::Type;
 
 	static_assert(Buffers::mostVertices % W == 0);
+
+	/// closeness() of a vertex whose coordinates add up to so much.
+	R closenessAt(R coordinates) const { return R(tolerance::feasibleVertex) * (size_ + coordinates); }
 
 	/// Places W vertices from this one on, the last one again where there are no more. `x`: x, y, z and s of each.
 	POLYTOPE_INLINE bool placeSeveral(int first, int last, V (&x)[4])
