@@ -10,6 +10,7 @@ include(PublicHeaders)
 set(POLYTOPE_CORE_HEADERS
 	contact/ContactQuery.hpp # a contact
 	contact/ContactTypes.hpp # its input and output
+	contact/LinearContact.hpp # a contact whose bodies hardly move
 	contact/PlacedPair.hpp # its two bodies
 	contact/PairDistance.hpp # distance and nearest points of two shapes
 	contact/Preconditions.hpp # what a contact needs of its input

@@ -2,6 +2,7 @@
 #include "contact/ContactQuery.hpp"
 
 #include "contact/ContactKernel.hpp"
+#include "contact/LinearContact.hpp"
 #include "contact/PairOrder.hpp"
 #include "numbers/InstructionSet.hpp"
 
@@ -131,6 +132,7 @@ void contactQuery(
 	// reset in place: constructing a temporary and assigning it takes as long as the dismissal of a pair
 	std::destroy_at(&result);
 	new (&result) ContactResult;
+	if (settings.linear) settings.linear->known = false;
 	if (surface && secondGoesFirst(pair)) {
 		const Vector3&   centre2 = *pair.centre2;
 		const Vector3    centre1 = -centre2;
@@ -146,10 +148,12 @@ void contactQuery(
 		exchangeBodies(memory);
 		if (settings.bounding) exchangeBodies(*settings.bounding, centre2, dimension);
 		exchangeBodies(result, centre2, dimension);
+		if (settings.linear) settings.linear->begin(pair, true, result);
 		if (result.outlineCount > 0) workspace.finishOutline(true, result);
 		return;
 	}
 	kernel(pair, settings, memory, workspace, result);
+	if (settings.linear) settings.linear->begin(pair, false, result);
 	if (result.outlineCount > 0) workspace.finishOutline(false, result);
 }
 

@@ -64,6 +64,7 @@ struct InternalPlanes {
 };
 
 struct ContactResult;
+struct LinearContact;
 
 /// What a user chooses, for all pairs of a scene alike.
 struct ContactOptions {
@@ -101,6 +102,9 @@ struct ContactSettings : ContactOptions {
 	BoundingPlanes* bounding = nullptr;
 	/// Models with a surface: the law of a joint that stiffens as it closes, or null.
 	const ClosureLaw* closure = nullptr;
+	/// 3-D, models with a surface: what gives the contact in the next steps (LinearContact.hpp), or null. Written where the surface has the vertices of
+	/// the last step, else made unknown.
+	LinearContact* linear = nullptr;
 
 	ContactSettings() = default;
 	explicit ContactSettings(const ContactOptions& options) : ContactOptions(options) { }
@@ -141,6 +145,7 @@ struct ContactResult {
 	        = 1; ///< spring, with internal faces: part of the stiffness that this piece has, by the pressure on it; foundation: it is in the area
 	Real turningArm    = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
 	bool dismissed     = false; ///< separated by the first basis' bound, without evaluating the other planes
+	bool linear        = false; ///< foundation, spring: from the last full computation, to first order (LinearContact.hpp)
 	bool surfaceKept   = false; ///< foundation, spring: the feasible set has the last step's vertices
 	int  simplexPivots = 0;
 	int  newtonIterations = 0;

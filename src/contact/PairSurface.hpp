@@ -25,6 +25,8 @@ template <class R, int D> struct PairSurface {
 	int                   corners = 0, stride; ///< 0: not known
 	R                     deepest;             ///< largest pressure, −s* of the program
 	SurfaceStatus         status;
+	SurfaceStiffness<R>*  stiffness      = nullptr; ///< 3-D: if it is asked for, where it is written to
+	bool                  differentiated = false;   ///< whether it was
 
 	POLYTOPE_INLINE PairSurface(R size_, bool energy_, bool outline_, KeptVertices* kept_)
 	        : kept(kept_), energy(energy_), outline(outline_), size(size_)
@@ -66,6 +68,7 @@ POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R
 	surface.status  = surface.sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None;
 	surface.nearest = set.tightPlanes();
 	if (!surface.on) outlineOfVertices<R>(set, surface);
+	if (!near && surface.stiffness && !surface.on) surface.differentiated = sums.differentiate(*surface.stiffness);
 	if (near && kept) vertices.keep(*kept, all.first, [near](int row) { return near->rowOfAll(row); });
 	return true;
 }

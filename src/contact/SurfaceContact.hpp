@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/PenetrationDepth.hpp"
+#include "contact/SurfaceDerivative.hpp"
 #include "contact/SurfaceOnPieces.hpp"
 #include "contact/WarmStart.hpp"
 #include "joint/ClosureLaw.hpp"
@@ -242,6 +243,10 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(q);
 	PairSurface<R, D> surface(
 	        q.frame.size + grown, energy, settings.outline, settings.warmStart && !across ? &q.memory.surface : nullptr);
+	SurfaceStiffness<R> stiffness;
+	if constexpr (D == 3) {
+		if (settings.linear && !across && !settings.closure) surface.stiffness = &stiffness;
+	}
 	SurfaceOnPiece<R, D> piece;
 	surfaceOfPair<R, D, W>(q, across, piece, surface);
 	out.surfaceKept = surface.sums.kept;
@@ -270,6 +275,8 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 	out.sectionCentroid = out.point;
 	if constexpr (D == 3) {
 		if (settings.outline) outlineOfSurface<R>(q, surface, force);
+		if (surface.differentiated && out.status == ContactStatus::Contact)
+			keepLinear<R>(q, surface, load, force.point, *settings.linear);
 	}
 	failUnlessFinite<D>(q.memory, out);
 }

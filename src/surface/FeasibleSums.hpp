@@ -3,6 +3,7 @@
 
 #include "surface/ContactSurface.hpp"
 #include "surface/FeasiblePolygon.hpp"
+#include "surface/SurfaceStiffness.hpp"
 
 /// The sums over a pair's contact surface from the vertices and edges of its feasible set.
 ///
@@ -52,6 +53,15 @@ public:
 			if (!(share_[k] > 0) || !placePiece<R, 3>(planes, buffers_.rowOf[i], buffers_.rowOf[j], box, piece)) continue;
 			on.add(piece, FeasiblePolygon<R>(buffers_, i, j, firstOf_[k], piece), spare, share_[k]);
 		}
+	}
+
+	/// False where the derivative is not known.
+	POLYTOPE_APART bool differentiate(SurfaceStiffness<R>& stiffness) const
+	{
+		stiffness.clear();
+		for (int k = 0; k < pieces_; ++k)
+			if (share_[k] > 0) stiffness.add(buffers_, planes_[k][0], planes_[k][1], firstOf_[k], share_[k]);
+		return stiffness.leftOut <= R(tolerance::leftOut) * stiffness.pressure;
 	}
 
 private:

@@ -42,6 +42,10 @@ constexpr Real sharpVertex = 1e-2;
 /// together. Far above rounding, and far below what a contact can be seen in; no vertex has changed offsets.
 constexpr Real splitPlanes = 65536 * rounding;
 
+/// Length of the difference of two unit normals, of a plane of each body, below which the derivative of the piece between them is left out; and the part of the
+/// pressure that may be on such pieces. Faces in line of two blocks have depth over size of it.
+constexpr Real inLine = 0.1, leftOut = 1e-4;
+
 /// Pivots to the vertex that is the optimum with the changed offsets, at the most: as many as there are planes that meet in it.
 constexpr int splitPivots = 16;
 

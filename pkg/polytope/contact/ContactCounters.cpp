@@ -21,6 +21,7 @@ void PolytopeGeomFunctor::count(const polytope::ContactResult& result)
 	count.ipoptSolves += result.ipoptSolved;
 	count.ipoptIterations += result.ipoptIterations;
 	count.surfacesKept += result.surfaceKept;
+	count.linear += result.linear;
 	if (ofScene().timing) {
 		count.lpNanoseconds += result.lpNanoseconds;
 		count.centreNanoseconds += result.centreNanoseconds;
@@ -40,6 +41,7 @@ boost::python::dict PolytopeGeomFunctor::stats() const
 		sum.ipoptSolves += one.ipoptSolves;
 		sum.ipoptIterations += one.ipoptIterations;
 		sum.surfacesKept += one.surfacesKept;
+		sum.linear += one.linear;
 		sum.lpNanoseconds += one.lpNanoseconds;
 		sum.centreNanoseconds += one.centreNanoseconds;
 		sum.timedPairs += one.timedPairs;
@@ -62,6 +64,7 @@ boost::python::dict PolytopeGeomFunctor::stats() const
 	all["ipoptSolves"]      = sum.ipoptSolves;
 	all["ipoptIterations"]  = sum.ipoptIterations;
 	all["surfacesKept"]     = sum.surfacesKept;
+	all["linear"]           = sum.linear;
 	all["rescued"]          = of(ContactStatus::CentreByIpopt);
 	all["fallbacks"]        = unanswered - of(ContactStatus::Failed);
 	all["failures"]         = unanswered;

@@ -9,7 +9,7 @@ namespace yade {
 /// Counters of one thread, on cache lines of its own.
 struct alignas(64) ContactCounters {
 	long pairs = 0, contacts = 0, dismissed = 0, simplexPivots = 0, newtonIterations = 0, ipoptSolves = 0, ipoptIterations = 0,
-	     surfacesKept                           = 0;
+	     surfacesKept = 0, linear = 0;
 	long statuses[polytope::contactStatusCount] = {};
 	long lpNanoseconds = 0, centreNanoseconds = 0, timedPairs = 0;
 };

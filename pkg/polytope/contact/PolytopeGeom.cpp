@@ -204,9 +204,26 @@ namespace {
 
 } // namespace
 
+namespace {
+
+	/// Whether the bodies move so slowly against each other that the contact's derivative will be of use.
+	bool isSlow(const PolytopeGeom& geom, const State& state1, const State& state2, const Vector3r& shift2, const Scene& scene)
+	{
+		const Vector3r arm1 = geom.contactPoint - state1.pos, arm2 = geom.contactPoint - state2.pos - shift2;
+		const Vector3r motion = state2.vel + state2.angVel.cross(arm2) - state1.vel - state1.angVel.cross(arm1);
+		return polytope::LinearContact::isSlow(-geom.infeasibility, math::sqrt(geom.contactArea), geom.normal, motion * scene.dt,
+		        (state2.angVel - state1.angVel) * scene.dt);
+	}
+
+} // namespace
+
 bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
         const State& state1, const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
+	if (const auto* const known = static_cast<const PolytopeGeom*>(c->geom.get())) { // which lie elsewhere: needed soon
+		prefetch::fetch(known->linear.get(), sizeof(LinearOfContact));
+		prefetch::fetch(known->outline.corners(), std::size_t(known->outline.count()) * sizeof(polytope::Vector2));
+	}
 	prefetchAfter(*c, *scene, sizeof(PolytopeGeom), sizeof(Polytope));
 	const KnowsBonds* const bonds = bonds_.in(*scene);
 	if (bonds && bonds->joins(c->getId1(), c->getId2())) return false; // the bond acts in its place
@@ -231,15 +248,31 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	settings.geometryAcrossGap         = wasReal || force;
 	if (const ClosureOfJoint* const closure = geom.closure.get()) settings.closure = &closure->law;
 
+	// internal faces are searched for new contacts, and for the others every few steps, not all in the same step
+	const bool turn        = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
+	const bool asPieces    = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
+	const bool search      = asPieces && (turn || !geom.internalKnown || !wasReal);
+	const bool mayBeLinear = surface && wasReal && settings.warmStart && !search && !settings.closure && !geom.internalFaces.get()
+	        && convex1.dimension() == 3;
+	if (mayBeLinear) {
+		auto* const             known = geom.linear.get();
+		polytope::ContactResult result;
+		polytope::OutlineMotion moved;
+		if (known && known->linear.follow(pair, settings, geom.point1, geom.point2, result, moved)) {
+			result.infeasibility = geom.infeasibility;
+			geom.outline.move(moved);
+			return write(result, frame1.origin, state1, state2, shift2, force, c);
+		}
+		if (isSlow(geom, state1, state2, shift2, *scene)) settings.linear = &geom.linear.make().linear;
+	}
+	if (!settings.linear) geom.linear.clear();
+
 	polytope::PairMemory memory = geom.memory();
 	if (geom.internalFaces.get() && !fit(*geom.internalFaces.get(), convex1, convex2)) geom.setInternalPlanes({});
-	// for a new contact, and for the others every few steps, not all in the same step
 	polytope::BoundingPlanes bounding;
 	polytope::InternalPlanes internal = geom.internalPlanes();
-	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (surface) {
-		const bool asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
-		if (asPieces && (turn || !geom.internalKnown || !wasReal || wasPutElsewhere(memory, pair))) settings.bounding = &bounding;
+		if (search || (asPieces && wasPutElsewhere(memory, pair))) settings.bounding = &bounding;
 		settings.internal = internal.none() ? nullptr : &internal;
 	}
 	polytope::ContactResult result;
@@ -296,7 +329,10 @@ bool PolytopeGeomFunctor::write(const polytope::ContactResult& result, const Vec
 	geom.infeasibility = result.infeasibility;
 	geom.contactArea   = result.area;
 	geom.turningArm    = result.turningArm;
-	geom.outline.set(result.outline, result.outlineCount);
+	if (!result.linear) geom.outline.set(result.outline, result.outlineCount);
+	if (const auto* const linear = geom.linear.get()) {
+		if (linear->linear.known) geom.outline.keep();
+	}
 	geom.faceForceCode      = std::int8_t(ofScene().faceForce(StiffnessRule(geom.stiffnessRule)));
 	geom.energyPerStiffness = geom.faceForce() != polytope::FaceForce::AtCentre ? result.energy : Real(-1);
 	ContactSizes sizes { geom.refR1, geom.refR2 };

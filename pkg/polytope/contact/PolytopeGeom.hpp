@@ -16,6 +16,7 @@
 #include <pkg/dem/ScGeom.hpp>
 
 #include <src/contact/ContactQuery.hpp>
+#include <src/contact/LinearContact.hpp>
 #include <src/timestep/RockingStiffness.hpp>
 
 #include <boost/serialization/array.hpp>
@@ -43,6 +44,16 @@ struct ClosureOfJoint {
 	}
 };
 
+/// What gives a contact whose bodies hardly move.
+struct LinearOfContact {
+	polytope::LinearContact linear;
+
+	template <class Archive> void serialize(Archive& archive, unsigned int)
+	{
+		visitParts(linear, [&](const char* name, auto& value) { archive& boost::serialization::make_nvp(name, value); });
+	}
+};
+
 /// There is one for each contact, so what few contacts have is apart (Seldom) and small numbers lie next to each other.
 class PolytopeGeom : public ScGeom {
 public:
@@ -54,11 +65,10 @@ public:
 	/// Four numbers for each plane.
 	using PlaneEnds = Seldom<std::vector<Real>>;
 	using Closure   = Seldom<ClosureOfJoint>;
+	using Linear    = Seldom<LinearOfContact>;
 
 	/// Made when first needed; not saved.
 	Seldom<StandIn> standIn;
-	/// Outline of the contact area, for rock joints between polyhedra.
-	StoredOutline outline;
 
 	polytope::PairMemory memory() const;
 	/// A basis of planes beyond the 32767th is not kept: the next step starts without one. `sameSurface`: the vertices are those known.
@@ -98,7 +108,8 @@ P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.r
 are the bodies' sizes when the contact began: half the edge of the cube (polygons: square) of the same volume (area), a sphere's radius; a wall, a
 box, a facet and a body that cannot move count as large as the other body.)""",
 		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear program [m]: minus the radius of the largest ball "
-		        "in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
+		        "in the overlap; positive for a gap (for a pair dismissed early, a lower bound). Of a contact that is followed "
+		        "(docs/contact-surface.md) that of its last full computation."))
 		((Real, contactArea, 0, Attr::readonly, "Area of the contact surface as seen along the normal, or, with *boon2012*, area in "
 		        "which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times "
 		        "thickness. With *boon2012* computed where a law needs it, as those of rock joints do, or if "
@@ -137,12 +148,14 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + "
 		        "body"))
 		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "For each how far the support goes on beyond it [m]"))
+		((Linear, linear, , (Attr::readonly | Attr::hidden), "The contact near the pose in which it was last computed in full"))
+		((StoredOutline, outline, , (Attr::readonly | Attr::hidden), "Outline of the contact area, for rock joints between polyhedra"))
 		((Closure, closure, , (Attr::readonly | Attr::hidden), "Normal law of its rock joint; none: a linear spring"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
 		.add_property("outline", &PolytopeGeom::outlineCorners, "Corners of the contact area as seen along the normal, a list of points [m] "
 		        "in the plane through the contact point: the face over which a rock joint between polyhedra shears. Empty for others, and "
-		        "until the next step after loading a scene.")
+		        "mostly until the next step after loading a scene.")
 		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody*
 (*boon2012*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear program's
 separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton did not converge to the point, Ipopt found
@@ -198,7 +211,8 @@ public:
 		POLYTOPE_SETTING(6) POLYTOPE_SETTING(7) POLYTOPE_SETTING(8)
 		.def("stats", &PolytopeGeomFunctor::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, "
 		        "*dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *surfacesKept* (contacts "
-		        "*foundation* and *spring* whose feasible set has the vertices of the step before), *ipoptSolves* and *ipoptIterations* "
+		        "*foundation* and *spring* whose feasible set has the vertices of the step before), *linear* (those of them taken from the last "
+		        "full computation, to first order in the bodies' motion: docs/contact-surface.md), *ipoptSolves* and *ipoptIterations* "
 		        "(calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), *failures* (queries "
 		        "without an answer: not one of *contact*, *separated*, *normalFromOneBody*, *normalFromDual*, *roundingLimited*, "
 		        "*centreByIpopt*), *fallbacks* (those of them that go on with a substitute: the linear program's point, or for coincident "

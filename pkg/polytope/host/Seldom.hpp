@@ -22,6 +22,7 @@ public:
 
 	/// Null where there is none.
 	const Value* get() const { return value_.get(); }
+	Value*       get() { return value_.get(); }
 	/// Made where there is none.
 	Value& make()
 	{

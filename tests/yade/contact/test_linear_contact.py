@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Contacts whose bodies hardly move are taken from their last full computation, to first order (docs/contact-surface.md): the same answers as with
+warmStart=False, which computes every contact in full."""
+
+import pathlib
+from math import cos, radians, sin
+
+import numpy as np
+import pytest
+from yade import FrictMat, O, Quaternion, RockJointMat, Vector3, polytope
+
+gravity = 10
+
+
+def material(**options):
+	O.reset()
+	O.materials.append(
+		RockJointMat(**{'density': 2600, 'normalStiffness': 1e9, 'shearStiffness': 5e8, 'frictionAngle': radians(35), **options})
+	)
+
+
+def engines(warm=True, **options):
+	O.engines = polytope.engines(**options)
+	functor().warmStart = warm
+
+
+def functor():
+	return O.engines[2].geomDispatcher.functors[0]
+
+
+def followed():
+	"""Part of the contacts since the last call that were followed."""
+	found = functor().stats()
+	functor().resetStats()
+	return found['linear'] / found['contacts']
+
+
+def pile(levels=4):
+	"""Blocks on a floor, each turned and put aside on the one below, the upper ones resting on an edge of it."""
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 5, 0.5), fixed=True))
+	for k in range(levels):
+		turn = Quaternion((0, 0, 1), 0.4 * k)
+		O.bodies.append(polytope.cuboid((0.07 * k, 0.05 * k, 0.25 + 0.4999 * k), (0.5, 0.4, 0.25), orientation=turn))
+
+
+def states():
+	return np.array([[*body.state.pos, *body.state.ori] for body in O.bodies])
+
+
+def ofRun(build, warm, seconds):
+	build(warm)
+	polytope.run(until=O.time + seconds)
+	return states(), [(contact.phys.normalForce, contact.phys.shearForce) for contact in O.interactions if contact.isReal]
+
+
+@pytest.mark.parametrize('perArea', [True, False])
+def testAPileComesToRestWhereItDoesInFull(perArea):
+	def build(warm):
+		material(**({} if perArea else {'normalStiffness': 2e8, 'shearStiffness': 1e8}))
+		pile()
+		engines(warm)
+		if not perArea:
+			O.engines[2].physDispatcher.functors[0].stiffnessPerArea = False
+
+	full, forces = ofRun(build, False, 1.5)
+	assert followed() == 0
+	linear, others = ofRun(build, True, 1.5)
+	assert followed() > 0.3
+	depth = max(-contact.geom.infeasibility for contact in O.interactions if contact.isReal)
+	assert np.abs(linear - full).max() < 0.01 * depth
+	for one, other in zip(forces, others, strict=True):
+		for a, b in zip(one, other, strict=True):
+			assert (a - b).norm() < 1e-3 * forces[0][0].norm()
+
+
+def testASlowTurntableTakesTheOutlineAlong():
+	"""A block off the axis of a floor that turns: its outline turns with it, in the world by a right angle, and what friction holds is the centripetal
+	force."""
+	material()
+	floor = O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 5, 0.5), fixed=True))
+	block = O.bodies.append(polytope.cuboid((2, 0, 0.24999), (0.5, 0.3, 0.25)))
+	engines()
+	polytope.run(until=O.time + 0.3)
+	O.engines[3].damping = 0
+	law = O.engines[2].lawDispatcher.functors[0]
+	law.shearDamping = law.rockingDamping = 0.3
+	speed = radians(90) / 2
+	O.bodies[floor].state.angVel = (0, 0, speed)
+	O.bodies[block].state.angVel = (0, 0, speed)
+	O.bodies[block].state.vel = Vector3(0, 0, speed).cross(O.bodies[block].state.pos)
+	start = O.time
+	polytope.run(until=O.time + 0.5)
+	functor().resetStats()
+	polytope.run(until=O.time + 1.5)
+	assert followed() > 0.5
+	angle = speed * (O.time - start)
+	contact = O.interactions[floor, block]
+	state = O.bodies[block].state
+	assert (state.pos - Vector3(2 * cos(angle), 2 * sin(angle), state.pos[2])).norm() < 1e-3
+	# as it was when the contact was computed: the bodies have moved since
+	turned = Quaternion((0, 0, 1), -speed * O.dt) * state.ori
+	corners = np.array([turned.conjugate() * (corner - state.pos + O.dt * state.vel) for corner in contact.geom.outline])
+	assert np.abs(np.abs(corners) - (0.5, 0.3, 0.25)).max() < 3e-5
+	pull = state.mass * speed**2 * 2
+	assert abs(contact.phys.shearForce.norm() - pull) < 0.02 * pull
+
+
+def testABlockThatRocksKeepsItsEnergy():
+	"""So slowly that most steps are linear, without damping: neither the derivative nor the steps between two full computations give or take energy."""
+	material(normalStiffness=1e8, frictionAngle=radians(30))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 5, 0.5), fixed=True))
+	ids = O.bodies.append(polytope.cuboid((0, 0, 0.5 - 2.6e3 * gravity / 1e8), (0.5, 0.5, 0.5)))
+	engines(gravity=(0, 0, -gravity), damping=0)
+	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
+	O.trackEnergy = True
+	O.bodies[ids].state.angVel = (2e-4, 1e-4, 0)
+	O.step()
+	O.step()
+	before, energies = polytope.mechanicalEnergy(), []
+	motion = O.bodies[ids].state.mass / 6 * 5e-8 / 2
+	functor().resetStats()
+	for _ in range(20):
+		O.run(500, wait=True)
+		energies.append(polytope.mechanicalEnergy())
+	assert followed() > 0.5
+	assert max(abs(energy - before) for energy in energies) < 0.01 * motion
+
+
+@pytest.mark.parametrize('steps', [1, 7])
+def testASavedPileGoesOnToTheBit(steps, tmp_path):
+	material()
+	pile()
+	engines(timeStepper=False)  # it sets O.dt in another step after loading
+	O.dt = 1e-4
+	polytope.run(until=O.time + 0.5)
+	functor().resetStats()
+	O.run(50, wait=True)
+	assert followed() > 0.3
+	path = str(pathlib.Path(tmp_path) / 'pile.yade.bin')
+	O.save(path, quiet=True)
+	O.run(steps, wait=True)
+	expected = states()
+	O.load(path, quiet=True)
+	O.run(steps, wait=True)
+	assert np.array_equal(states(), expected)
+
+
+def testAShapeThatIsExchangedIsNoticed():
+	material()
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 5, 0.5), fixed=True))
+	ids = O.bodies.append(polytope.cuboid((0, 0, 0.49999), (0.5, 0.5, 0.5)))
+	engines()
+	polytope.run(until=O.time + 0.5)
+	functor().resetStats()
+	O.step()
+	assert followed() == 1
+	O.bodies[ids].shape = polytope.cuboid((0, 0, 0), (0.4, 0.5, 0.5)).shape
+	O.step()
+	assert followed() == 0
+	assert O.interactions[0, ids].geom.contactArea == pytest.approx(0.8, rel=1e-3)
+
+
+def testYadesOwnPhysicsAreFollowed():
+	O.reset()
+	O.materials.append(FrictMat(density=2600, young=1e9, poisson=0.3, frictionAngle=0.6))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 5, 0.5), fixed=True))
+	ids = O.bodies.append(polytope.cuboid((0, 0, 0.49999), (0.5, 0.5, 0.5)))
+	engines(damping=0.3)
+	polytope.run(until=O.time + 0.5)
+	functor().resetStats()
+	O.run(20, wait=True)
+	assert followed() > 0.8
+	force = O.interactions[0, ids].phys.normalForce.norm()
+	assert force == pytest.approx(9.81 * O.bodies[ids].state.mass, rel=1e-4)
