@@ -76,7 +76,7 @@ constexpr int  refinements  = 8 * digits / 53;
 /// A contact is taken from its last full computation to first order (contact/LinearContact.hpp) until its bodies have moved by the first × depth (−s*) along
 /// the normal, anywhere on the surface, or by the second × its width along it (where that is more than the first). What the former leaves out is of
 /// second order, 1e-5 of the force and 1e-8 of the energy at the most (LinearContactTest.cpp); the latter is by how much the outline over which
-/// friction acts may be off. And for how many steps it must be expected to be good: the derivative takes half as long as a contact.
+/// friction acts may be off. And for how many steps it must be expected to be good: the derivative takes time, too.
 constexpr Real linearAcross = 5e-3, linearAlong = 3e-5;
 constexpr int  linearSteps = 4;
 

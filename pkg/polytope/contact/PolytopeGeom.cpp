@@ -202,9 +202,14 @@ namespace {
 		return apart.norm() > Real(polytope::tolerance::putElsewhere) * size;
 	}
 
-} // namespace
-
-namespace {
+	/// What a contact has elsewhere in memory is needed soon.
+	void fetchParts(const Interaction& contact)
+	{
+		const auto* const geom = static_cast<const PolytopeGeom*>(contact.geom.get());
+		if (!geom) return;
+		prefetch::fetch(geom->linear.get(), sizeof(LinearOfContact));
+		prefetch::fetch(geom->outline.corners(), std::size_t(geom->outline.count()) * sizeof(polytope::Vector2));
+	}
 
 	/// Whether the bodies move so slowly against each other that the contact's derivative will be of use.
 	bool isSlow(const PolytopeGeom& geom, const State& state1, const State& state2, const Vector3r& shift2, const Scene& scene)
@@ -215,15 +220,36 @@ namespace {
 		        (state2.angVel - state1.angVel) * scene.dt);
 	}
 
+	/// The contact from its last full computation, where that is near.
+	bool follow(const polytope::PlacedPair& pair, const polytope::ContactSettings& settings, PolytopeGeom& geom, polytope::ContactResult& result)
+	{
+		auto* const             known = geom.linear.get();
+		polytope::OutlineMotion moved;
+		if (!known || !known->linear.follow(pair, settings, geom.point1, geom.point2, result, moved)) return false;
+		result.infeasibility = geom.infeasibility;
+		geom.outline.move(moved);
+		return true;
+	}
+
 } // namespace
+
+polytope::ContactSettings PolytopeGeomFunctor::settings(const PolytopeGeom& geom, bool wasReal, bool force) const
+{
+	polytope::ContactSettings settings = this->settings(StiffnessRule(geom.stiffnessRule));
+	const bool                surface  = hasSurface(settings.contactModel);
+	settings.section                   = ofScene().computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
+	settings.outline                   = surface && (geom.needsArea || !wasReal);
+	settings.normalWeight[0]           = geom.normalWeight;
+	settings.normalWeight[1]           = 1 - geom.normalWeight;
+	settings.geometryAcrossGap         = wasReal || force;
+	if (const ClosureOfJoint* const closure = geom.closure.get()) settings.closure = &closure->law;
+	return settings;
+}
 
 bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
         const State& state1, const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	if (const auto* const known = static_cast<const PolytopeGeom*>(c->geom.get())) { // which lie elsewhere: needed soon
-		prefetch::fetch(known->linear.get(), sizeof(LinearOfContact));
-		prefetch::fetch(known->outline.corners(), std::size_t(known->outline.count()) * sizeof(polytope::Vector2));
-	}
+	fetchParts(*c);
 	prefetchAfter(*c, *scene, sizeof(PolytopeGeom), sizeof(Polytope));
 	const KnowsBonds* const bonds = bonds_.in(*scene);
 	if (bonds && bonds->joins(c->getId1(), c->getId2())) return false; // the bond acts in its place
@@ -238,34 +264,19 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 
 	auto& geom = geometry(c);
 	if (!wasReal) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
-	polytope::ContactSettings settings = this->settings(StiffnessRule(geom.stiffnessRule));
+	polytope::ContactSettings settings = this->settings(geom, wasReal, force);
 	const bool                surface  = hasSurface(settings.contactModel);
-	settings.section                   = ofScene().computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
-	settings.outline                   = surface && (geom.needsArea || !wasReal);
 	geom.atOnePoint                    = !surface;
-	settings.normalWeight[0]           = geom.normalWeight;
-	settings.normalWeight[1]           = 1 - geom.normalWeight;
-	settings.geometryAcrossGap         = wasReal || force;
-	if (const ClosureOfJoint* const closure = geom.closure.get()) settings.closure = &closure->law;
 
 	// internal faces are searched for new contacts, and for the others every few steps, not all in the same step
 	const bool turn        = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	const bool asPieces    = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
 	const bool search      = asPieces && (turn || !geom.internalKnown || !wasReal);
-	const bool mayBeLinear = surface && wasReal && settings.warmStart && !search && !settings.closure && !geom.internalFaces.get()
-	        && convex1.dimension() == 3;
-	if (mayBeLinear) {
-		auto* const             known = geom.linear.get();
-		polytope::ContactResult result;
-		polytope::OutlineMotion moved;
-		if (known && known->linear.follow(pair, settings, geom.point1, geom.point2, result, moved)) {
-			result.infeasibility = geom.infeasibility;
-			geom.outline.move(moved);
-			return write(result, frame1.origin, state1, state2, shift2, force, c);
-		}
-		if (isSlow(geom, state1, state2, shift2, *scene)) settings.linear = &geom.linear.make().linear;
-	}
-	if (!settings.linear) geom.linear.clear();
+	const bool mayBeLinear = surface && wasReal && settings.warmStart && !settings.closure && !geom.internalFaces.get() && convex1.dimension() == 3;
+	polytope::ContactResult result;
+	if (mayBeLinear && !search && follow(pair, settings, geom, result)) return write(result, frame1.origin, state1, state2, shift2, force, c);
+	if (mayBeLinear && isSlow(geom, state1, state2, shift2, *scene)) settings.linear = &geom.linear.make().linear;
+	else geom.linear.clear();
 
 	polytope::PairMemory memory = geom.memory();
 	if (geom.internalFaces.get() && !fit(*geom.internalFaces.get(), convex1, convex2)) geom.setInternalPlanes({});
@@ -275,7 +286,6 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 		if (search || (asPieces && wasPutElsewhere(memory, pair))) settings.bounding = &bounding;
 		settings.internal = internal.none() ? nullptr : &internal;
 	}
-	polytope::ContactResult result;
 	polytope::contactQuery(pair, settings, memory, workspace, result);
 	bool sameSurface = result.surfaceKept;
 	if (result.inContact && settings.bounding) {

@@ -232,6 +232,9 @@ protected:
 
 	// Steps of go().
 
+	/// The scene's settings for this contact.
+	polytope::ContactSettings settings(const PolytopeGeom& geom, bool wasReal, bool force) const;
+
 	/// The pair's geometry, made where it has none.
 	PolytopeGeom& geometry(const shared_ptr<Interaction>& c);
 

@@ -293,6 +293,13 @@ def measure(scene, request):
 	return rows
 
 
+def linearShare(scene):
+	"""Part of the contacts since the last call that were taken from their last full computation, to first order."""
+	found = scene.geometryFunctor.stats()
+	scene.geometryFunctor.resetStats()
+	return found['linear'] / max(1, found['contacts'])
+
+
 def main(request):
 	scene = heap(request)
 	empty = memoryInUse()
@@ -314,6 +321,8 @@ def main(request):
 	settled = time.perf_counter() - started
 	if request.save:
 		saveState(request.save)
+	if request.method == 'ours':
+		linearShare(scene)
 	rows = measure(scene, request)
 	if request.pairs:
 		writePairs(request.pairs, scene)
@@ -332,6 +341,7 @@ def main(request):
 		'endBytes': memoryInUse(),
 		'pairs': len(O.interactions),
 		'contacts': O.interactions.countReal(),
+		'linear': linearShare(scene) if request.method == 'ours' else None,
 	}
 
 
