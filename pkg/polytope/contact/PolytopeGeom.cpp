@@ -221,7 +221,8 @@ namespace {
 	}
 
 	/// The contact from its last full computation, where that is near.
-	bool follow(const polytope::PlacedPair& pair, const polytope::ContactSettings& settings, PolytopeGeom& geom, polytope::ContactResult& result)
+	bool follow(const polytope::PlacedPair& pair, const polytope::ContactSettings& settings, PolytopeGeom& geom,
+	        polytope::ContactResult& result)
 	{
 		auto* const             known = geom.linear.get();
 		polytope::OutlineMotion moved;
@@ -269,12 +270,14 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	geom.atOnePoint                    = !surface;
 
 	// internal faces are searched for new contacts, and for the others every few steps, not all in the same step
-	const bool turn        = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
-	const bool asPieces    = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
-	const bool search      = asPieces && (turn || !geom.internalKnown || !wasReal);
-	const bool mayBeLinear = surface && wasReal && settings.warmStart && !settings.closure && !geom.internalFaces.get() && convex1.dimension() == 3;
+	const bool turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
+	const bool asPieces = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
+	const bool search   = asPieces && (turn || !geom.internalKnown || !wasReal);
+	const bool mayBeLinear
+	        = surface && wasReal && settings.warmStart && !settings.closure && !geom.internalFaces.get() && convex1.dimension() == 3;
 	polytope::ContactResult result;
-	if (mayBeLinear && !search && follow(pair, settings, geom, result)) return write(result, frame1.origin, state1, state2, shift2, force, c);
+	if (mayBeLinear && !search && follow(pair, settings, geom, result))
+		return write(result, frame1.origin, state1, state2, shift2, force, c);
 	if (mayBeLinear && isSlow(geom, state1, state2, shift2, *scene)) settings.linear = &geom.linear.make().linear;
 	else geom.linear.clear();
 
