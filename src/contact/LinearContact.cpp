@@ -12,7 +12,6 @@ bool LinearContact::follow(const PlacedPair& pair, const ContactSettings& settin
         ContactResult& result, OutlineMotion& outline)
 {
 	using std::abs;
-	using std::sqrt;
 	if (!known || perArea != (settings.contactModel == ContactModel::Foundation) || (settings.energy && energy < 0)) return false;
 	if (sizes[0] != sizeOf(*pair.shape[0]) || sizes[1] != sizeOf(*pair.shape[1])) return false;
 	const Matrix3 &one = *pair.rotation[exchanged], &two = *pair.rotation[!exchanged];

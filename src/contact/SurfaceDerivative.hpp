@@ -46,17 +46,14 @@ POLYTOPE_INLINE void slopeOfLoad(bool spring, const SurfaceSums<R, 3>& sums, con
 template <class R> POLYTOPE_INLINE void moveOrigin(const R* x, R (&slope)[6][6])
 {
 	for (int j = 0; j < 6; ++j) {
-		const R f[3] = { slope[0][j], slope[1][j], slope[2][j] };
-		slope[3][j] -= x[1] * f[2] - x[2] * f[1];
-		slope[4][j] -= x[2] * f[0] - x[0] * f[2];
-		slope[5][j] -= x[0] * f[1] - x[1] * f[0];
+		const R force[3] = { slope[0][j], slope[1][j], slope[2][j] };
+		R       turn[3]  = {};
+		addCross<R, 3>(force, x, turn);
+		for (int k = 0; k < 3; ++k)
+			slope[3 + k][j] += turn[k];
 	}
-	for (int i = 0; i < 6; ++i) {
-		const R f[3] = { slope[i][0], slope[i][1], slope[i][2] };
-		slope[i][3] -= x[1] * f[2] - x[2] * f[1];
-		slope[i][4] -= x[2] * f[0] - x[0] * f[2];
-		slope[i][5] -= x[0] * f[1] - x[1] * f[0];
-	}
+	for (int i = 0; i < 6; ++i)
+		addCross<R, 3>(slope[i], x, slope[i] + 3);
 }
 
 /// What the next steps need, where the contact is one with the vertices of the last step and a direction. `x`: contact point.

@@ -102,7 +102,6 @@ private:
 	/// By the rule of four points, which is exact up to the third degree (Strang and Fix 1973).
 	POLYTOPE_INLINE void addTriangle(const R* o, const R* v, const R* w, Moments& plain, Moments& weighted)
 	{
-		using std::sqrt;
 		R from[3], to[3], twice[3] = {};
 		for (int k = 0; k < 3; ++k) {
 			from[k] = v[k] - o[k];
@@ -110,22 +109,16 @@ private:
 		}
 		addCross<R, 3>(from, to, twice);
 		const R area = norm<R, 3>(twice) / 2;
-		for (int point = 0; point < 4; ++point) {
-			const R ofO    = point == 3 ? R(1) / 3
-			           : point == 0     ? R(3) / 5
-			                            : R(1) / 5,
-			        ofV    = point == 3 ? R(1) / 3
-			           : point == 1     ? R(3) / 5
-			                            : R(1) / 5,
-			        ofW    = point == 3 ? R(1) / 3
-			           : point == 2     ? R(3) / 5
-			                            : R(1) / 5,
-			        weight = (point == 3 ? R(-9) / 16 : R(25) / 48) * area;
+		// shares of the three corners, and of the area
+		const R fifth = R(1) / 5, third = R(1) / 3, part = R(25) / 48;
+		const R rule[4][4] = { { 3 * fifth, fifth, fifth, part }, { fifth, 3 * fifth, fifth, part },
+			{ fifth, fifth, 3 * fifth, part }, { third, third, third, R(-9) / 16 } };
+		for (const R(&point)[4] : rule) {
 			R x[4];
 			for (int k = 0; k < 4; ++k)
-				x[k] = ofO * o[k] + ofV * v[k] + ofW * w[k];
-			plain.add(weight, x);
-			weighted.add(weight * x[3], x);
+				x[k] = point[0] * o[k] + point[1] * v[k] + point[2] * w[k];
+			plain.add(point[3] * area, x);
+			weighted.add(point[3] * area * x[3], x);
 		}
 	}
 };
