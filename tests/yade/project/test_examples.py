@@ -348,7 +348,9 @@ def testTradeoffFindsTheHeightAtRest(runs, capsys):
 	errors = {row['setting']: float(row['error']) for row in rows}
 	# of 0.5 m; the rocking stiffness of the paper's contact is not that of the closed form
 	assert all(0 < error < (2e-4 if name == "the paper's contact" else 2e-6) for name, error in errors.items())
-	assert float(rows[0]['answer']) == pytest.approx(float(rows[2]['answer']), rel=1e-12), 'a cold start changes nothing but the time'
+	# a cold start computes each contact in full, and does not follow those at rest: to 1e-5 of the depth they share (docs/settings.md)
+	answers = {row['setting']: float(row['answer']) for row in rows}
+	assert 0.5 - answers['as it is'] == pytest.approx(0.5 - answers['cold start'], rel=1e-5)
 
 
 def testATunnelIsCutThroughStressedBlocks(runs):
