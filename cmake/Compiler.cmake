@@ -2,8 +2,7 @@
 #
 # What holds for every file we compile. Use it through the target `polytope_options`.
 
-# Release is what users and tests run. The level of optimisation is chosen per layer (see polytope_optimise): the core's
-# loops gain from -O3, YADE's class macros only take longer to compile.
+# Release is what users and tests run. The level of optimisation is chosen per layer (see polytope_optimise).
 if(NOT CMAKE_BUILD_TYPE AND PROJECT_IS_TOP_LEVEL)
 	set(CMAKE_BUILD_TYPE Release CACHE STRING "Release or Debug" FORCE)
 endif()

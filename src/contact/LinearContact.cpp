@@ -8,11 +8,11 @@
 
 namespace polytope {
 
-bool LinearContact::follow(const PlacedPair& pair, const ContactSettings& settings, const Vector3& point1, const Vector3& point2,
+bool LinearContact::follow(const PlacedPair& pair, const ContactOptions& options, const Vector3& point1, const Vector3& point2,
         ContactResult& result, OutlineMotion& outline)
 {
 	using std::abs;
-	if (!known || perArea != (settings.contactModel == ContactModel::Foundation) || (settings.energy && energy < 0)) return false;
+	if (!known || perArea != (options.contactModel == ContactModel::Foundation) || (options.energy && energy < 0)) return false;
 	if (sizes[0] != sizeOf(*pair.shape[0]) || sizes[1] != sizeOf(*pair.shape[1])) return false;
 	const Matrix3 &one = *pair.rotation[exchanged], &two = *pair.rotation[!exchanged];
 	const Vector3 &own = exchanged ? point2 : point1, &other = exchanged ? point1 : point2;

@@ -52,7 +52,7 @@ struct LinearContact {
 
 	/// The contact in this step. False if it must be computed in full: the bodies have moved too far, or what is asked for is not known. `point`: that
 	/// of the last full computation, in the caller's bodies' frames.
-	POLYTOPE_API bool follow(const PlacedPair& pair, const ContactSettings& settings, const Vector3& point1, const Vector3& point2,
+	POLYTOPE_API bool follow(const PlacedPair& pair, const ContactOptions& options, const Vector3& point1, const Vector3& point2,
 	        ContactResult& result, OutlineMotion& outline);
 
 	/// After the query: the bodies' order, and the frame of the caller's contact.

@@ -136,11 +136,11 @@ const Ig2_Polytope_Polytope_PolytopeGeom& PolytopeGeomFunctor::ofScene() const
 	return Ig2_Polytope_Polytope_PolytopeGeom::orDefault(settings_.in(*scene));
 }
 
-polytope::ContactSettings PolytopeGeomFunctor::settings(StiffnessRule rule) const
+polytope::ContactOptions PolytopeGeomFunctor::options(StiffnessRule rule) const
 {
-	polytope::ContactSettings settings(ofScene().options(rule));
-	settings.energy = settings.energy || scene->trackEnergy;
-	return settings;
+	polytope::ContactOptions options = ofScene().options(rule);
+	options.energy                   = options.energy || scene->trackEnergy;
+	return options;
 }
 
 void PolytopeGeomFunctor::refuse(const std::string& name) const
@@ -221,12 +221,12 @@ namespace {
 	}
 
 	/// The contact from its last full computation, where that is near.
-	bool follow(const polytope::PlacedPair& pair, const polytope::ContactSettings& settings, PolytopeGeom& geom,
+	bool follow(const polytope::PlacedPair& pair, const polytope::ContactOptions& options, PolytopeGeom& geom,
 	        polytope::ContactResult& result)
 	{
 		auto* const             known = geom.linear.get();
 		polytope::OutlineMotion moved;
-		if (!known || !known->linear.follow(pair, settings, geom.point1, geom.point2, result, moved)) return false;
+		if (!known || !known->linear.follow(pair, options, geom.point1, geom.point2, result, moved)) return false;
 		result.infeasibility = geom.infeasibility;
 		geom.outline.move(moved);
 		return true;
@@ -234,15 +234,15 @@ namespace {
 
 } // namespace
 
-polytope::ContactSettings PolytopeGeomFunctor::settings(const PolytopeGeom& geom, bool wasReal, bool force) const
+polytope::ContactSettings PolytopeGeomFunctor::settings(
+        const polytope::ContactOptions& options, const PolytopeGeom& geom, bool wasReal, bool force) const
 {
-	polytope::ContactSettings settings = this->settings(StiffnessRule(geom.stiffnessRule));
-	const bool                surface  = hasSurface(settings.contactModel);
-	settings.section                   = ofScene().computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
-	settings.outline                   = surface && (geom.needsArea || !wasReal);
-	settings.normalWeight[0]           = geom.normalWeight;
-	settings.normalWeight[1]           = 1 - geom.normalWeight;
-	settings.geometryAcrossGap         = wasReal || force;
+	polytope::ContactSettings settings(options);
+	settings.section           = ofScene().computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
+	settings.outline           = hasSurface(options.contactModel) && (geom.needsArea || !wasReal);
+	settings.normalWeight[0]   = geom.normalWeight;
+	settings.normalWeight[1]   = 1 - geom.normalWeight;
+	settings.geometryAcrossGap = wasReal || force;
 	if (const ClosureOfJoint* const closure = geom.closure.get()) settings.closure = &closure->law;
 	return settings;
 }
@@ -265,19 +265,20 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 
 	auto& geom = geometry(c);
 	if (!wasReal) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
-	polytope::ContactSettings settings = this->settings(geom, wasReal, force);
-	const bool                surface  = hasSurface(settings.contactModel);
-	geom.atOnePoint                    = !surface;
+	const polytope::ContactOptions options = this->options(StiffnessRule(geom.stiffnessRule));
+	const bool                     surface = hasSurface(options.contactModel);
+	geom.atOnePoint                        = !surface;
 
 	// internal faces are searched for new contacts, and for the others every few steps, not all in the same step
 	const bool turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	const bool asPieces = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
 	const bool search   = asPieces && (turn || !geom.internalKnown || !wasReal);
 	const bool mayBeLinear
-	        = surface && wasReal && settings.warmStart && !settings.closure && !geom.internalFaces.get() && convex1.dimension() == 3;
+	        = surface && wasReal && options.warmStart && !geom.closure.get() && !geom.internalFaces.get() && convex1.dimension() == 3;
 	polytope::ContactResult result;
-	if (mayBeLinear && !search && follow(pair, settings, geom, result))
+	if (mayBeLinear && !search && follow(pair, options, geom, result))
 		return write(result, frame1.origin, state1, state2, shift2, force, c);
+	polytope::ContactSettings settings = this->settings(options, geom, wasReal, force);
 	if (mayBeLinear && isSlow(geom, state1, state2, shift2, *scene)) settings.linear = &geom.linear.make().linear;
 	else geom.linear.clear();
 
@@ -342,11 +343,13 @@ bool PolytopeGeomFunctor::write(const polytope::ContactResult& result, const Vec
 	geom.infeasibility = result.infeasibility;
 	geom.contactArea   = result.area;
 	geom.turningArm    = result.turningArm;
-	if (!result.linear) geom.outline.set(result.outline, result.outlineCount);
+	if (!result.linear) {
+		geom.outline.set(result.outline, result.outlineCount);
+		geom.faceForceCode = std::int8_t(ofScene().faceForce(StiffnessRule(geom.stiffnessRule)));
+	}
 	if (const auto* const linear = geom.linear.get()) {
 		if (linear->linear.known) geom.outline.keep();
 	}
-	geom.faceForceCode      = std::int8_t(ofScene().faceForce(StiffnessRule(geom.stiffnessRule)));
 	geom.energyPerStiffness = geom.faceForce() != polytope::FaceForce::AtCentre ? result.energy : Real(-1);
 	ContactSizes sizes { geom.refR1, geom.refR2 };
 	if (!wasReal) sizes = contactSizes(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);

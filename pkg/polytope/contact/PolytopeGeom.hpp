@@ -183,7 +183,7 @@ class Ig2_Polytope_Polytope_PolytopeGeom;
 class PolytopeGeomFunctor : public IGeomFunctor {
 public:
 	/// The scene's settings for a contact whose stiffness has this unit.
-	polytope::ContactSettings settings(StiffnessRule rule) const;
+	polytope::ContactSettings settings(StiffnessRule rule) const { return polytope::ContactSettings(options(rule)); }
 	boost::python::dict       stats() const;
 	void                      resetStats();
 
@@ -232,8 +232,12 @@ protected:
 
 	// Steps of go().
 
-	/// The scene's settings for this contact.
-	polytope::ContactSettings settings(const PolytopeGeom& geom, bool wasReal, bool force) const;
+	/// What the scene's settings choose for a contact whose stiffness has this unit.
+	polytope::ContactOptions options(StiffnessRule rule) const;
+
+	/// What is asked about this contact.
+	polytope::ContactSettings settings(
+	        const polytope::ContactOptions& options, const PolytopeGeom& geom, bool wasReal, bool force) const;
 
 	/// The pair's geometry, made where it has none.
 	PolytopeGeom& geometry(const shared_ptr<Interaction>& c);

@@ -25,9 +25,10 @@ namespace prefetch {
 	{
 		if (!object) return;
 		constexpr std::size_t line  = 64;
-		const auto            begin = reinterpret_cast<std::uintptr_t>(object), end = begin + bytes;
-		for (std::uintptr_t at = begin - begin % line; at < end; at += line)
-			__builtin_prefetch(reinterpret_cast<const void*>(at));
+		const auto* const     begin = static_cast<const char*>(object);
+		for (std::size_t at = 0; at < bytes; at += line)
+			__builtin_prefetch(begin + at);
+		__builtin_prefetch(begin + bytes - 1);
 	}
 
 } // namespace prefetch

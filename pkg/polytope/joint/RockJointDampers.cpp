@@ -53,6 +53,16 @@ namespace {
 		return sum;
 	}
 
+	/// Not below turning() of any direction of length 1.
+	Real mostTurning(const Body& mover)
+	{
+		const Vector3r& inertia = mover.state->inertia;
+		Real            least   = std::numeric_limits<Real>::infinity();
+		for (int k = 0; k < 3; ++k)
+			if (inertia[k] > 0 && inertia[k] < least) least = inertia[k];
+		return 1 / least;
+	}
+
 	/// uᵀ M⁻¹ u.
 	Real translating(const Body& mover, const Vector3r& u)
 	{
@@ -72,13 +82,16 @@ Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody::DampedBody(
 	if (!moves) return;
 	const Vector3r& normal = pair.geom.normal;
 	if (phys.dampedStiffness > 0 && sums.lastKnown()) {
-		const StiffnessSum sum = sums.last(mover.id);
-		part                   = partOfSum(phys.dampedStiffness, sum.along(otherIs, normal));
-		limit                  = math::max(Real(part / 2), partOfSum(phys.dampedStiffness, sum.along(normal)));
+		const StiffnessSum& sum   = sums.last(mover.id);
+		const Real          alike = sum.along(otherIs, normal), others = sum.along(otherThan(otherIs), normal);
+		part  = partOfSum(phys.dampedStiffness, alike);
+		limit = math::max(Real(part / 2), partOfSum(phys.dampedStiffness, alike + others));
 	} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact)) {
 		part  = pair.geom.share;
 		limit = partOfCount(body, mover, pair.geom.share);
 	} else part = limit = partOfArea(body, mover, normal, phys.contactArea);
+	const Real turning = mostTurning(mover) / limit;
+	mostMotion         = { { 1 / (mover.state->mass * limit) + arm.squaredNorm() * turning, turning } };
 }
 
 Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedPair::DampedPair(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums)
@@ -95,13 +108,14 @@ Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedPair::damper(
 {
 	if (!(inverse > 0)) return 0;
 	const bool rocks  = gyrationSquared >= 0;
-	Real       motion = 0;
+	const Real damper = fraction * criticalDamper(stiffness, inverse) * (rocks ? gyrationSquared : Real(1));
+	if (damper * dt * (body[0].mostMotion[rocks] + body[1].mostMotion[rocks]) <= 1) return damper;
+	Real motion = 0;
 	for (const DampedBody& one : body)
 		if (one.moves)
 			motion += (rocks ? turning(one.mover, direction)
 			                 : translating(one.mover, direction) + turning(one.mover, one.arm.cross(direction)))
 			        / one.limit;
-	const Real damper = fraction * criticalDamper(stiffness, inverse) * (rocks ? gyrationSquared : Real(1));
 	return damper * motion * dt > 1 ? 1 / (motion * dt) : damper;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint/RockJointShear.hpp"
 
+#include "host/Prefetch.hpp"
+
 #include <optional>
 
 namespace yade {
@@ -16,8 +18,9 @@ namespace {
 
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, shared_ptr<IPhys>& iphys, Interaction* contact)
 {
-	auto&      geom = static_cast<PolytopeGeom&>(*igeom);
-	auto&      phys = static_cast<RockJointPhys&>(*iphys);
+	auto& geom = static_cast<PolytopeGeom&>(*igeom);
+	auto& phys = static_cast<RockJointPhys&>(*iphys);
+	prefetch::fetch(phys.shearLayers.get(), sizeof(LayersOfJoint));
 	const Pair pair(*contact, geom, scene);
 	if (damps()) stiffnessSums.begin(*scene);
 

@@ -35,7 +35,7 @@ Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turned
 			layers_ = polytope::ShearLayers(areaBefore_, mean);
 		else layers_.move(mean - layers_.sum() / layers_.area());
 	}
-	before_ = energy();
+	if (pair.scene->trackEnergy) before_ = energy();
 }
 
 void Shear::adapt(const RockJointPhys& phys)

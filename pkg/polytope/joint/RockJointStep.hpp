@@ -72,6 +72,8 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody {
 	/// Part of the body's motion that its damper may take in a step; all dampers together take less than twice the motion, beyond which it grows.
 	Real     limit = 1;
 	Vector3r arm; ///< from the mover's centre to the contact point
+	/// Velocity over `limit` that an impulse of one at the contact point gives it there, and a moment of one about any axis: not below.
+	std::array<Real, 2> mostMotion { { 0, 0 } };
 
 	DampedBody(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Body& other,
 	        const Vector3r& shift);

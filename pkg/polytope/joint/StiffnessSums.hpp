@@ -21,6 +21,8 @@ namespace yade {
 /// What is on the other side of a contact.
 enum class Across : int { Mover = 0, Support }; ///< a body that forces move, or one that they do not
 
+inline Across otherThan(Across across) { return across == Across::Mover ? Across::Support : Across::Mover; }
+
 /// Two symmetric matrices, by what is across: xx, yy, zz, yz, zx, xy.
 struct StiffnessSum {
 	using Matrix = std::array<Real, 6>;
@@ -33,7 +35,6 @@ struct StiffnessSum {
 		return s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2]
 		        + 2 * (s[3] * n[1] * n[2] + s[4] * n[2] * n[0] + s[5] * n[0] * n[1]);
 	}
-	Real along(const Vector3r& n) const { return along(Across::Mover, n) + along(Across::Support, n); }
 
 	template <class Archive> void serialize(Archive& archive, unsigned int)
 	{
@@ -70,10 +71,10 @@ public:
 	/// Whether there is a sum of the last step. Not where nothing was damped in it, or the law is a new one.
 	bool lastKnown() const { return lastKnown_; }
 	/// Sum of the last step [N/m].
-	StiffnessSum last(Body::id_t body) const { return ofBody(last_, body); }
+	const StiffnessSum& last(Body::id_t body) const { return ofBody(last_, body); }
 	/// Sum of the newest step [N/m]; for use between two loops over the contacts.
-	StiffnessSum newest(Body::id_t body) const { return ofBody(newest_, body); }
-	void         add(Body::id_t body, Across across, Real stiffness, const Vector3r& normal);
+	const StiffnessSum& newest(Body::id_t body) const { return ofBody(newest_, body); }
+	void                add(Body::id_t body, Across across, Real stiffness, const Vector3r& normal);
 
 	/// The newest sums of these bodies, and the step that they are of. The reverse replaces them, if they are not older than those that there are, for
 	/// these bodies had no contact since. For processes that have a part of the scene each (py/polytope/mpi).
@@ -84,10 +85,12 @@ public:
 private:
 	using Sums = std::vector<StiffnessSum>;
 
-	void                beginStep(const Scene& scene);
-	static StiffnessSum ofBody(const Sums& sums, Body::id_t body)
+	void                       beginStep(const Scene& scene);
+	static const StiffnessSum& ofBody(const Sums& sums, Body::id_t body)
 	{
-		return body < 0 || std::size_t(body) >= sums.size() ? StiffnessSum() : sums[std::size_t(body)];
+		if (body >= 0 && std::size_t(body) < sums.size()) return sums[std::size_t(body)];
+		static const StiffnessSum none;
+		return none;
 	}
 
 	long              step_ = -1; ///< of which newest_ is
