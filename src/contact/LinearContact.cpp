@@ -90,12 +90,12 @@ void LinearContact::begin(const PlacedPair& pair, bool exchangedBodies, const Co
 	place = Vector3::Zero();
 }
 
-bool LinearContact::isSlow(const Real& depth, const Real& width, const Vector3& normal, const Vector3& motion, const Vector3& turn)
+bool LinearContact::isSlow(
+        int steps, const Real& depth, const Real& width, const Vector3& normal, const Vector3& motion, const Vector3& turn)
 {
 	using std::abs;
 	const Real across = tolerance::linearAcross * depth, along = std::max(across, Real(tolerance::linearAlong * width)),
-	           far       = width * turn.norm();
-	constexpr Real steps = tolerance::linearSteps;
+	           far = width * turn.norm();
 	return steps * (abs(motion.dot(normal)) + far) <= across && steps * (motion.norm() + far) <= along;
 }
 

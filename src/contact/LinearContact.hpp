@@ -58,9 +58,10 @@ struct LinearContact {
 	/// After the query: the bodies' order, and the frame of the caller's contact.
 	void begin(const PlacedPair& pair, bool exchangedBodies, const ContactResult& result);
 
-	/// Whether bodies that move in a step by this at the contact point, and turn by this against each other, will be near for so many steps that the
-	/// derivative is worth its cost. `depth`: −s*; `width`: of the surface, about.
-	static bool isSlow(const Real& depth, const Real& width, const Vector3& normal, const Vector3& motion, const Vector3& turn);
+	/// Whether bodies that move in a step by this at the contact point, and turn by this against each other, will be near for so many steps. `depth`: −s*;
+	/// `width`: of the surface, about.
+	static bool isSlow(
+	        int steps, const Real& depth, const Real& width, const Vector3& normal, const Vector3& motion, const Vector3& turn);
 
 	template <class Visitor> friend void visitParts(LinearContact& linear, Visitor&& visit)
 	{

@@ -76,9 +76,11 @@ constexpr int  refinements  = 8 * digits / 53;
 /// A contact is taken from its last full computation to first order (contact/LinearContact.hpp) until its bodies have moved by the first × depth (−s*) along
 /// the normal, anywhere on the surface, or by the second × its width along it (where that is more than the first). What the former leaves out is of
 /// second order, 1e-5 of the force and 1e-8 of the energy at the most (LinearContactTest.cpp); the latter is by how much the outline over which
-/// friction acts may be off. And for how many steps it must be expected to be good: the derivative takes time, too.
-constexpr Real linearAcross = 5e-3, linearAlong = 3e-5;
-constexpr int  linearSteps = 4;
+/// friction acts may be off. And for how many steps it must be expected to be good: the derivative takes time, too, and by differences
+/// (contact/LinearByDifferences.hpp) as long as twelve full computations. Those are not followed where they leave out more than linearLeftOut of the force on all pieces: a
+/// corner, whose force grows with the cube of its depth, leaves out 3 linearAcross².
+constexpr Real linearAcross = 5e-3, linearAlong = 3e-5, linearLeftOut = 4 * linearAcross * linearAcross;
+constexpr int  linearSteps = 4, linearStepsByDifferences = 32;
 
 /// Steps in a row that do not raise s after which the simplex changes to Bland's rule, which cannot cycle.
 constexpr int stalledPivots = 12;
@@ -205,6 +207,10 @@ constexpr Real parallel = 1e-4;
 
 /// Least part of a stiffness that one of several pieces has. Any small number will do: zero would mean no contact.
 constexpr Real leastShareOfSupport = 1e-9;
+
+/// × size of the smaller body: ends of a support that are nearer to each other are the same. The outline of a contact that is followed may be off by more
+/// (linearAlong).
+constexpr Real endOfSupport = 1e-5;
 
 /// Steps between two searches for internal faces of a pair that touched before: between two of them, a body at
 /// 1 m/s moves by a hundredth of its size at most.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/PolytopeGeom.hpp"
 
+#include <src/contact/LinearByDifferences.hpp>
 #include <src/numbers/PlaneAxes.hpp>
 #include <src/program/PlaneCode.hpp>
 #include <src/shape/CheckedNumbers.hpp>
@@ -86,9 +87,9 @@ bool PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
 			codes.push_back(polytope::planeCode(body, planes.plane[body][k]));
 			ends.push_back(planes.beyond[body][k]);
 		}
-	// poses are rounded, and where a support ends with them
-	const auto same
-	        = [](Real a, Real b) { return a == b || math::abs(a - b) <= Real(polytope::tolerance::flush) * (1 + math::abs(a)); };
+	// where a support ends obliquely it ends elsewhere for each place of the contact point
+	const Real        room       = Real(polytope::tolerance::endOfSupport) * math::min(refR1, refR2);
+	const auto        same       = [&](Real a, Real b) { return a == b || math::abs(a - b) <= room; };
 	const auto* const knownCodes = internalFaces.get();
 	const auto* const knownEnds  = internalEnds.get();
 	if (knownCodes ? codes == *knownCodes && std::equal(ends.begin(), ends.end(), knownEnds->begin(), same) : codes.empty())
@@ -211,13 +212,14 @@ namespace {
 		prefetch::fetch(geom->outline.corners(), std::size_t(geom->outline.count()) * sizeof(polytope::Vector2));
 	}
 
-	/// Whether the bodies move so slowly against each other that the contact's derivative will be of use.
-	bool isSlow(const PolytopeGeom& geom, const State& state1, const State& state2, const Vector3r& shift2, const Scene& scene)
+	/// Whether the bodies move so slowly against each other that the contact's derivative will be of use for so many steps.
+	bool isSlow(
+	        int steps, const PolytopeGeom& geom, const State& state1, const State& state2, const Vector3r& shift2, const Scene& scene)
 	{
 		const Vector3r arm1 = geom.contactPoint - state1.pos, arm2 = geom.contactPoint - state2.pos - shift2;
 		const Vector3r motion = state2.vel + state2.angVel.cross(arm2) - state1.vel - state1.angVel.cross(arm1);
-		return polytope::LinearContact::isSlow(-geom.infeasibility, math::sqrt(geom.contactArea), geom.normal, motion * scene.dt,
-		        (state2.angVel - state1.angVel) * scene.dt);
+		return polytope::LinearContact::isSlow(steps, -geom.infeasibility, math::sqrt(geom.contactArea), geom.normal,
+		        motion * scene.dt, (state2.angVel - state1.angVel) * scene.dt);
 	}
 
 	/// The contact from its last full computation, where that is near.
@@ -270,17 +272,21 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	geom.atOnePoint                        = !surface;
 
 	// internal faces are searched for new contacts, and for the others every few steps, not all in the same step
-	const bool turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
-	const bool asPieces = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
-	const bool search   = asPieces && (turn || !geom.internalKnown || !wasReal);
-	const bool mayBeLinear
-	        = surface && wasReal && options.warmStart && !geom.closure.get() && !geom.internalFaces.get() && convex1.dimension() == 3;
+	const bool turn        = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
+	const bool asPieces    = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
+	const bool search      = asPieces && (turn || !geom.internalKnown || !wasReal);
+	const bool mayBeLinear = surface && wasReal && options.warmStart && !geom.closure.get() && convex1.dimension() == 3;
 	polytope::ContactResult result;
 	if (mayBeLinear && !search && follow(pair, options, geom, result))
 		return write(result, frame1.origin, state1, state2, shift2, force, c);
 	polytope::ContactSettings settings = this->settings(options, geom, wasReal, force);
-	if (mayBeLinear && isSlow(geom, state1, state2, shift2, *scene)) settings.linear = &geom.linear.make().linear;
-	else geom.linear.clear();
+	// the search needs a full query, the contact may not
+	const bool mayBeFollowed = mayBeLinear && search && geom.linear.get() && geom.linear.get()->linear.known;
+	const auto isSlow        = [&](int steps) { return yade::isSlow(steps, geom, state1, state2, shift2, *scene); };
+	const bool slow          = mayBeLinear && !mayBeFollowed && isSlow(polytope::tolerance::linearSteps);
+	const bool slower        = slow && turn && !options.energy && isSlow(polytope::tolerance::linearStepsByDifferences);
+	if (slow) settings.linear = &geom.linear.make().linear;
+	else if (!mayBeFollowed) geom.linear.clear();
 
 	polytope::PairMemory memory = geom.memory();
 	if (geom.internalFaces.get() && !fit(*geom.internalFaces.get(), convex1, convex2)) geom.setInternalPlanes({});
@@ -301,11 +307,18 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(pair, settings, memory, workspace, result);
 			sameSurface = false;
-		}
+		} else if (polytope::ContactResult followed; mayBeFollowed && follow(pair, options, geom, followed))
+			return write(followed, frame1.origin, state1, state2, shift2, force, c);
 	}
+	if (mayBeFollowed) geom.linear.clear();
 	if (result.inContact) giveShare(math::max(result.share, Real(polytope::tolerance::leastShareOfSupport)), geom, *c, result);
 	geom.remember(memory, sameSurface);
-	return write(result, frame1.origin, state1, state2, shift2, force, c);
+	const bool goesOn = write(result, frame1.origin, state1, state2, shift2, force, c);
+	if (slower && !settings.linear->known) { // its outline is gone after that
+		polytope::linearByDifferences(pair, settings, memory, workspace, result, *settings.linear);
+		if (settings.linear->known) geom.outline.keep();
+	}
+	return goesOn;
 }
 
 bool PolytopeGeomFunctor::findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)

@@ -73,6 +73,52 @@ def testAPileComesToRestWhereItDoesInFull(perArea):
 			assert (a - b).norm() < 1e-3 * forces[0][0].norm()
 
 
+def buildOverPieces(warm, perArea=True):
+	"""A block across the seams of six pieces of a floor, cut obliquely, and one on it that is off its middle."""
+	material(**({} if perArea else {'normalStiffness': 2e8, 'shearStiffness': 1e8}))
+	cut = [-3, -0.35, 0.3, 3]
+	for k in range(3):
+		for y0, y1 in ((-3, 0.1), (0.1, 3)):
+			slant = 0.2 if 0 < k else 0
+			ends = [(cut[k] - slant, cut[k + 1] - 0.2 * (k < 2)), (cut[k] + slant, cut[k + 1] + 0.2 * (k < 2))]
+			corners = [(x, y, z) for y, xs in ((y0, ends[0]), (y1, ends[1])) for x in xs for z in (-1, 0)]
+			O.bodies.append(polytope.fromVertices(corners, fixed=True))
+	ids = O.bodies.append(polytope.cuboid((0, 0, 0.4 - 2e-5), (0.8, 0.6, 0.4)))
+	O.bodies.append(polytope.cuboid((0.3, 0.1, 0.95 - 4e-5), (0.3, 0.2, 0.15), orientation=Quaternion((0, 0, 1), 0.3)))
+	engines(warm)
+	if not perArea:
+		O.engines[2].physDispatcher.functors[0].stiffnessPerArea = False
+	return ids
+
+
+@pytest.mark.parametrize('perArea', [True, False])
+def testPiecesOfAFloorAreFollowed(perArea):
+	"""What each piece carries is what it does in full, and all of them the weight; when one of them is taken away, the others take over."""
+	found = {}
+	for warm in (False, True):
+		ids = buildOverPieces(warm, perArea)
+		polytope.run(until=O.time + 2)
+		functor().resetStats()
+		O.run(64, wait=True)
+		part = followed()
+		assert part > 0.7 if warm else part == 0
+		runs = []
+		for removed in (None, 0):
+			if removed is not None:
+				O.bodies.erase(removed)
+				polytope.run(until=O.time + 1)
+			runs.append((states()[-2:], {(c.id1, c.id2): c.phys.normalForce[2] for c in O.interactions if c.isReal and ids in (c.id1, c.id2)}))
+		found[warm] = runs
+	depth = max(-contact.geom.infeasibility for contact in O.interactions if contact.isReal)
+	weights = sum(O.bodies[k].state.mass for k in (ids, ids + 1)) * 9.81
+	for (place, forces), (other, others) in zip(found[False], found[True], strict=True):
+		assert np.abs(place - other).max() < 0.02 * depth
+		assert forces.keys() == others.keys()
+		for pair, force in forces.items():
+			assert force == pytest.approx(others[pair], abs=1e-3 * weights)
+	assert len(found[True][0][1]) > len(found[True][1][1]) >= 4
+
+
 def testASlowTurntableTakesTheOutlineAlong():
 	"""A block off the axis of a floor that turns: its outline turns with it, in the world by a right angle, and what friction holds is the centripetal
 	force."""
