@@ -29,10 +29,11 @@ stiffness = 1e8
 # ------------------------------------------------------------------------------------------------ at rest
 
 
+@pytest.mark.parametrize('warm', [True, False])
 @pytest.mark.parametrize('perArea,half', [(False, (0.5, 0.5, 0.5)), (True, (0.5, 0.5, 0.5)), (True, (0.25, 0.5, 0.3))])
-def testBlockCarriesItsWeight(perArea, half):
+def testBlockCarriesItsWeight(perArea, half, warm):
 	joint(normalStiffness=stiffness)
-	loop(perArea, normalDamping=1, gravity=(0, 0, -gravity))
+	loop(perArea, normalDamping=1, gravity=(0, 0, -gravity), ig2={'warmStart': warm})
 	floor, block = blockOnFloor(half=half)
 	kn = stiffness * (4 * half[0] * half[1] if perArea else 1)
 	weight = block.state.mass * gravity
@@ -44,7 +45,9 @@ def testBlockCarriesItsWeight(perArea, half):
 		(half[2] - block.state.pos[2]) / sunk(weight / stiffness, (2 * half[0], 2 * half[1]), perArea) - 1,
 	]
 	print('relative errors of force on the floor, normal force, settlement:', errors)
-	assert max(map(abs, errors)) < 1e-10
+	assert max(map(abs, errors[:2])) < 1e-10
+	# a contact that is followed has its derivative in single precision, over 5e-3 of its depth
+	assert abs(errors[2]) < (5e-3 * 2**-20 if warm else 1e-10)
 	assert block.state.vel.norm() < 1e-12 and block.state.angVel.norm() < 1e-12
 
 
