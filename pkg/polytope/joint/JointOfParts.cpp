@@ -63,7 +63,7 @@ namespace {
 		phys.twistingMoment    = -phys.twistingStiffness * turned;
 		if (!phys.shearLayers.get()) return;
 		polytope::ShearLayers& layers = phys.shearLayers.make().layers;
-		layers.keepPart(phys.contactArea / layers.area());
+		layers.keepPart(phys.extentOfBed() / layers.area());
 		layers.turn([&](Vector3r& displacement) { displacement = flat(displacement + more); });
 	}
 

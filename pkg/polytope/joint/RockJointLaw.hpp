@@ -46,7 +46,8 @@ public:
   length); both are incremented by $-k_s\Delta\vec u_s$ and $-k_s\rho^2\Delta\theta$ from the relative velocity at that centroid and the relative spin
   about the normal, $\rho^2$ the mean square of the distance from the centroid. Polygons, spheres and the contacts of *contactModel* = boon2012 have
   no moment: for them shear acts at the contact point. Stiffness per area is $k_s=k_s'A$: springs that leave a shrinking area take their force along,
-  those that came last leave first; those that join a growing area are unstrained, and the force stays in its line. Neither creates energy.
+  those that came last leave first; those that join a growing area are unstrained, and the force stays in its line. Neither creates energy. With a
+  stiffness per contact this holds for the :yref:`share<PolytopeGeom.share>` of each of several pieces.
 * Strength at each place $c+p\tan\phi$, the pressure $p$ linear over the outline with its centroid at the contact point; where faces slip by a
   displacement and a rotation, force and moment are those of friction against the slip at each place (limit surface, Goyal, Ruina & Papadopoulos 1991,
   Wear 143:307-352), without partial slip. Without rotation that is $|\vec f_s|\le cA+f_n\tan\phi$, through the centroid of the pressure. At its first

@@ -86,7 +86,7 @@ Real RockJointPhys::shearEnergy() const
 	Real           bed   = energyOfSpring(force.squaredNorm(), ks);
 	if (const LayersOfJoint* several = shearLayers.get()) { // their mean is the force's
 		const Real area = several->layers.area(), mean = several->layers.sum().squaredNorm() / (2 * area);
-		if (contactArea > 0) bed += ks / contactArea * (several->layers.energy() - mean);
+		if (extentOfBed() > 0) bed += ks / extentOfBed() * (several->layers.energy() - mean);
 	}
 	return bed + energyOfSpring(twist * twist, twistingStiffness);
 }

@@ -131,6 +131,12 @@ public:
 	}
 	/// Whether the joint can carry a tensile force [N].
 	bool bearsTension(Real force) const;
+	/// How many springs the shear bed has, up to a factor: the area [m²], or with a stiffness per contact the share [-] that this one of several pieces
+	/// has; 0 where a script has set neither.
+	Real extentOfBed() const
+	{
+		return shearStiffness > 0 ? contactArea : shearStiffnessPerContact > 0 ? Real(ks / shearStiffnessPerContact) : Real(0);
+	}
 	/// Largest shear force at a normal force (positive in compression) [N].
 	Real shearStrength(Real normal) const;
 	/// Energy of the springs of the shear bed [J].

@@ -11,7 +11,7 @@ using Shear = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Shear;
 Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turnedForce)
         : pair_(pair), lastPoint_(phys.shearPoint), force_(turnedForce), lastForce_(turnedForce),
           twist_(phys.twistingMoment - phys.twistingViscous), lastTwist_(twist_), stiffness_(phys.ks),
-          twistingStiffness_(phys.twistingStiffness), areaBefore_(phys.contactArea), likelySlip_(phys.likelySlip)
+          twistingStiffness_(phys.twistingStiffness), extentBefore_(phys.extentOfBed()), likelySlip_(phys.likelySlip)
 {
 	const StoredOutline& outline = pair.geom.outline;
 	if (outline.count() >= 3) {
@@ -23,16 +23,16 @@ Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turned
 		offset_   = inWorld(moments_.centroid);
 	} else axis_[0] = axis_[1] = Vector3r::Zero();
 
-	if (phys.shearStiffness > 0 && stiffness_ > 0 && areaBefore_ > 0) {
-		perArea_ = stiffness_ / areaBefore_;
+	if (stiffness_ > 0 && extentBefore_ > 0) {
+		perExtent_ = stiffness_ / extentBefore_;
 		if (phys.shearLayers.get()) {
 			layers_ = phys.shearLayers.get()->layers;
 			layers_.turn([&](Vector3r& displacement) { turnWithContact(pair.geom, displacement); });
 		}
 		// the force is the master: a script may have set it
 		const Vector3r mean = -force_ / stiffness_;
-		if (!(math::abs(layers_.area() - areaBefore_) <= Real(polytope::tolerance::sameArea) * areaBefore_))
-			layers_ = polytope::ShearLayers(areaBefore_, mean);
+		if (!(math::abs(layers_.area() - extentBefore_) <= Real(polytope::tolerance::sameArea) * extentBefore_))
+			layers_ = polytope::ShearLayers(extentBefore_, mean);
 		else layers_.move(mean - layers_.sum() / layers_.area());
 	}
 	if (pair.scene->trackEnergy) before_ = energy();
@@ -41,11 +41,12 @@ Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turned
 void Shear::adapt(const RockJointPhys& phys)
 {
 	const Real before = stiffness_;
-	if (perArea_ > 0) setArea(phys);
+	const Real extent = phys.extentOfBed();
+	if (perExtent_ > 0) setExtent(phys, extent);
 	else if (phys.ks < before) force_ *= phys.ks / before;
-	if (phys.shearStiffness > 0 && perArea_ == 0 && phys.contactArea > 0) { // its first step
-		perArea_ = phys.shearStiffness;
-		layers_  = polytope::ShearLayers(phys.contactArea, phys.ks > 0 ? Vector3r(-force_ / phys.ks) : Vector3r(Vector3r::Zero()));
+	if (perExtent_ == 0 && extent > 0) { // its first step
+		perExtent_ = phys.ks / extent;
+		layers_    = polytope::ShearLayers(extent, phys.ks > 0 ? Vector3r(-force_ / phys.ks) : Vector3r(Vector3r::Zero()));
 	}
 	stiffness_          = phys.ks;
 	const Real twisting = phys.ks * gyration_;
@@ -54,21 +55,21 @@ void Shear::adapt(const RockJointPhys& phys)
 	twistingStiffness_ = twisting;
 }
 
-/// Does what adapt() does, for a stiffness per area.
-void Shear::setArea(const RockJointPhys& phys)
+/// Does what adapt() does, where the bed's extent is known.
+void Shear::setExtent(const RockJointPhys& phys, Real extent)
 {
-	const Real present = phys.ks / phys.contactArea;
-	if (present != perArea_ && phys.contactArea > 0) { // set by a script: as if springs joined or left everywhere
-		if (math::abs(present - perArea_) > Real(polytope::tolerance::sameArea) * perArea_) {
-			const Real ratio = present < perArea_ ? Real(1) : perArea_ / present;
+	const Real present = phys.ks / extent;
+	if (extent > 0 && present != perExtent_) { // set by a script: as if springs joined or left everywhere
+		if (math::abs(present - perExtent_) > Real(polytope::tolerance::sameArea) * perExtent_) {
+			const Real ratio = present < perExtent_ ? Real(1) : perExtent_ / present;
 			layers_.turn([&](Vector3r& displacement) { displacement *= ratio; });
 		}
-		perArea_ = present;
+		perExtent_ = present;
 	}
-	if (phys.contactArea != areaBefore_) layers_.setArea(phys.contactArea);
+	if (extent != extentBefore_) layers_.setArea(extent);
 	if (pair_.geom.atOnePoint && layers_.count() > 1) layers_ = polytope::ShearLayers(layers_.area(), layers_.sum() / layers_.area());
-	force_ = -perArea_ * layers_.sum();
-	if (gyration_ > 0 && phys.contactArea != areaBefore_) followCentroid(areaBefore_, phys.contactArea);
+	force_ = -perExtent_ * layers_.sum();
+	if (gyration_ > 0 && phys.shearStiffness > 0 && extent != extentBefore_) followCentroid(extentBefore_, extent);
 }
 
 /// With springs that join or leave on one side the area's centroid moves through the bodies. What has joined carries nothing: the force stays in its
@@ -93,7 +94,7 @@ void Shear::followCentroid(Real areaBefore, Real areaNow)
 	else if (twistingStiffness_ > 0) {
 		const Vector3r more = -twist_ / twistingStiffness_ * acrossNormal(moved); // displacement of body 2 there
 		layers_.move(more);
-		force_ = -perArea_ * layers_.sum();
+		force_ = -perExtent_ * layers_.sum();
 	}
 }
 
@@ -200,7 +201,7 @@ void Shear::vanish()
 
 Real Shear::energy() const
 {
-	const Real along = perArea_ > 0 ? Real(perArea_ * layers_.energy()) : energyOfSpring(force_.squaredNorm(), stiffness_);
+	const Real along = perExtent_ > 0 ? Real(perExtent_ * layers_.energy()) : energyOfSpring(force_.squaredNorm(), stiffness_);
 	return along + energyOfSpring(twist_ * twist_, twistingStiffness_);
 }
 

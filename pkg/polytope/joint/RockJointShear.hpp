@@ -66,7 +66,7 @@ private:
 	Real                           twistOf(const polytope::Vector3& load, const polytope::Vector2& centre) const;
 	const polytope::ShearStrength& spreadStrength(Real strength, const polytope::Vector2& centre);
 	polytope::Vector2              centreOfStrength(const RockJointPhys& phys, Real strength) const;
-	void                           setArea(const RockJointPhys& phys);
+	void                           setExtent(const RockJointPhys& phys, Real extent);
 	void                           followCentroid(Real areaBefore, Real areaNow);
 
 	const Pair&                            pair_;
@@ -78,10 +78,10 @@ private:
 	Vector3r                               force_, lastForce_, trialForce_ = Vector3r::Zero();
 	Real                                   twist_, lastTwist_;
 	Real                                   stiffness_, twistingStiffness_; ///< k_s [N/m], k_s ρ² [N m/rad]
-	Real                                   areaBefore_, perArea_ = 0;      ///< perArea_: 0 for a stiffness per contact
+	Real                                   extentBefore_, perExtent_ = 0;  ///< of the bed (RockJointPhys::extentOfBed), and k_s over it
 	Vector3r                               likelySlip_;                    ///< where the search for slip has ended
 	std::optional<polytope::ShearStrength> spread_;                        ///< the last one that was asked for
-	polytope::ShearLayers                  layers_;                        ///< of a stiffness per area
+	polytope::ShearLayers                  layers_;                        ///< their area: the bed's extent
 	Real                                   before_       = 0;
 	Vector3r                               motion_       = Vector3r::Zero(); ///< at the area's centroid
 	Real                                   turn_         = 0;                ///< about the normal

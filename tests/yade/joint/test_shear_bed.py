@@ -268,6 +268,29 @@ def testLoadCyclesDoNotLetABlockCreepDownASlope(feet):
 	assert place[0] - place[-1] < 1.5e-4  # as many independent springs: 0.06 to 0.12 mm, once
 
 
+@pytest.mark.parametrize('perArea', [True, False])
+def testLoadCyclesDoNotLetABlockCreepOverPieces(perArea):
+	"""A tall block over the seam of two fixed pieces is pushed by a third of its weight, again and again, with friction of 80°: what either piece carries of it
+	goes up and down with its tilt."""
+	joint(normalStiffness=1e8, shearStiffness=1e8, frictionAngle=radians(80), stiffnessPerArea=perArea)
+	for low, high in ((-2, 0.1), (0.1, 2)):
+		O.bodies.append(polytope.cuboid(((low + high) / 2, 0, -0.5), ((high - low) / 2, 2, 0.5), fixed=True))
+	block = O.bodies[O.bodies.append(polytope.cuboid((0, 0, 0.5), (0.5, 0.4, 0.5)))]
+	newton = NewtonIntegrator(gravity=(0, 0, -gravity), damping=0.2)
+	O.engines = polytope.engines(integrator=newton)
+	while O.time < 0.5:
+		O.step()
+	place = []
+	for _ in range(6):
+		start = O.time
+		while O.time < start + 0.25:
+			newton.gravity = (0.35 * gravity * sin(4 * pi * (O.time - start)) ** 2, 0, -gravity)
+			O.step()
+		place.append(block.state.pos[0])
+	depth = max(-contact.geom.infeasibility for contact in O.interactions if contact.isReal)
+	assert abs(place[-1] - place[2]) / 3 < 1e-3 * depth
+
+
 @pytest.mark.parametrize('dimension', [2, 3])
 def testABlockOnItsFaceShakenBelowYieldStays(dimension):
 	"""On a joint that closes by 0.15 mm. The weight across a slope of 20° goes up and down by 30 %, twenty times."""
