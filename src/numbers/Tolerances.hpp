@@ -77,8 +77,8 @@ constexpr int  refinements  = 8 * digits / 53;
 /// the normal, anywhere on the surface, or by the second × its width along it (where that is more than the first). What the former leaves out is of
 /// second order, 1e-5 of the force and 1e-8 of the energy at the most (LinearContactTest.cpp); the latter is by how much the outline over which
 /// friction acts may be off. And for how many steps it must be expected to be good: the derivative takes time, too, and by differences
-/// (contact/LinearByDifferences.hpp) as long as twelve full computations. Those are not followed where they leave out more than linearLeftOut of the force on all pieces: a
-/// corner, whose force grows with the cube of its depth, leaves out 3 linearAcross².
+/// (contact/LinearByDifferences.hpp) as long as twelve full computations. Those are not followed where they leave out more than linearLeftOut of the
+/// force on all pieces: a corner, whose force grows with the cube of its depth, leaves out 3 linearAcross².
 constexpr Real linearAcross = 5e-3, linearAlong = 3e-5, linearLeftOut = 4 * linearAcross * linearAcross;
 constexpr int  linearSteps = 4, linearStepsByDifferences = 32;
 

@@ -123,7 +123,7 @@ TEST(LinearByDifferences, FollowsAPartOfTheSurface)
 	EXPECT_GT(known, parts * 3 / 4);
 }
 
-/// The edge of the body on the seam, and a pair that is apart: no derivative, no contact.
+/// A pair that is apart, and a contact whose force is not linear over the differences.
 TEST(LinearByDifferences, LeavesUnknownWhatIsNotSmooth)
 {
 	const Piece     piece;
@@ -143,13 +143,13 @@ TEST(LinearByDifferences, LeavesUnknownWhatIsNotSmooth)
 		linearByDifferences(pair.placed(), settings, memory, workspace, result, linear);
 		EXPECT_EQ(linear.known, depth > 0);
 	}
-	// one corner dips in by less than the bodies move in a difference: the force begins there
+	// a corner, with differences as large as its depth: what they leave out shows
 	pair.rotation[1] = Eigen::AngleAxis<Real>(Real(0.7), Vector3(1, 1, 0).normalized()).toRotationMatrix();
 	PairMemory memory;
 	pair.centre2               = Vector3(Real(0.2), 0, Real(1.3));
 	const ContactResult result = query(pair, settings, &memory);
 	ContactResult       wrong  = result;
-	wrong.infeasibility        = 1000 * result.infeasibility; // differences as large as the depth: what they leave out shows
+	wrong.infeasibility        = 1000 * result.infeasibility;
 	linearByDifferences(pair.placed(), settings, memory, workspace, wrong, linear);
 	EXPECT_FALSE(linear.known);
 }
