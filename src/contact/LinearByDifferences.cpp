@@ -55,9 +55,9 @@ void linearByDifferences(const PlacedPair& pair, const ContactSettings& settings
 	plain.bounding = nullptr;
 	plain.linear   = nullptr;
 
-	const Load                load = loadOf(result, perArea, x, radius, result.share, one);
-	Eigen::Matrix<Real, 6, 6> slope;
-	const Real                leftOut = Real(tolerance::linearLeftOut) * load.head<3>().norm() / result.share;
+	const Load load = loadOf(result, perArea, x, radius, result.share, one);
+	Real       slope[6][6];
+	const Real leftOut = Real(tolerance::linearLeftOut) * load.head<3>().norm() / result.share;
 	for (int j = 0; j < 6; ++j) {
 		Load there[2];
 		for (int side = 0; side < 2; ++side) {
@@ -73,27 +73,16 @@ void linearByDifferences(const PlacedPair& pair, const ContactSettings& settings
 			there[side] = loadOf(found, perArea, x, radius, result.share, one);
 		}
 		if (!(((there[0] + there[1]) / 2 - load).norm() <= leftOut)) return;
-		slope.col(j) = (there[0] - there[1]) / (2 * across);
+		for (int i = 0; i < 6; ++i)
+			slope[i][j] = (there[0][i] - there[1][i]) / (2 * across);
 	}
 
-	linear.unit = slope.cwiseAbs().maxCoeff();
-	if (!(linear.unit > 0)) return;
-	for (int j = 0; j < 6; ++j)
-		for (int i = 0; i < 6; ++i)
-			linear.slope[std::size_t(6 * j + i)] = float(slope(i, j) / linear.unit);
-	const Matrix3 pose = one.transpose() * two;
-	for (int i = 0; i < 3; ++i)
-		for (int j = 0; j < 3; ++j)
-			linear.pose[std::size_t(3 * i + j)] = pose(i, j);
-	std::copy(load.data(), load.data() + 6, linear.load.begin());
+	std::array<Real, 6> present;
+	std::copy(load.data(), load.data() + 6, present.begin());
+	linear.keep(one, two, present, slope, -result.infeasibility, result.area, radius);
 	linear.energy  = -1; // a part has none of its own: only that of all pieces together has the force as its gradient
 	linear.perArea = perArea;
-	linear.area    = result.area;
-	linear.radius  = radius;
-	linear.across  = across;
-	linear.along   = std::max(across, Real(tolerance::linearAlong * result.area / radius));
 	linear.carrier = pair.shape[1]->boundingRadius() < pair.shape[0]->boundingRadius();
-	linear.known   = true;
 	linear.begin(pair, false, result);
 }
 

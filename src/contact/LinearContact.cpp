@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace polytope {
 
@@ -78,6 +79,29 @@ bool LinearContact::follow(const PlacedPair& pair, const ContactOptions& options
 	axis                  = u;
 	place                 = present;
 	return true;
+}
+
+void LinearContact::keep(const Matrix3& first, const Matrix3& second, const std::array<Real, 6>& present, const Real (&derivative)[6][6],
+        const Real& depth, const Real& areaOfSurface, const Real& radiusOfSurface)
+{
+	using std::abs;
+	unit = 0;
+	for (const Real(&row)[6] : derivative)
+		for (const Real& one : row)
+			if (!(abs(one) <= unit)) unit = abs(one);
+	known = unit > 0 && unit <= std::numeric_limits<Real>::max();
+	if (!known) return;
+	for (int i = 0; i < 6; ++i)
+		for (int j = 0; j < 6; ++j)
+			slope[std::size_t(6 * j + i)] = float(derivative[i][j] / unit);
+	for (int i = 0; i < 3; ++i)
+		for (int j = 0; j < 3; ++j)
+			pose[std::size_t(3 * i + j)] = first.col(i).dot(second.col(j));
+	load   = present;
+	area   = areaOfSurface;
+	radius = radiusOfSurface;
+	across = tolerance::linearAcross * depth;
+	along  = std::max(across, Real(tolerance::linearAlong * area / radius));
 }
 
 void LinearContact::begin(const PlacedPair& pair, bool exchangedBodies, const ContactResult& result)

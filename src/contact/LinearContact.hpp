@@ -55,6 +55,16 @@ struct LinearContact {
 	POLYTOPE_API bool follow(const PlacedPair& pair, const ContactOptions& options, const Vector3& point1, const Vector3& point2,
 	        ContactResult& result, OutlineMotion& outline);
 
+	/// After a full computation: what follow() moves. Unknown where the derivative is no number, or vanishes. The caller sets energy, unit of the stiffness and
+	/// carrier.
+	///
+	/// \param first       rotations of both bodies, in the kernel's order
+	/// \param present     `load`
+	/// \param derivative  of it by the motion, as `slope` has it: a column for each motion
+	/// \param depth       −s*
+	void keep(const Matrix3& first, const Matrix3& second, const std::array<Real, 6>& present, const Real (&derivative)[6][6],
+	        const Real& depth, const Real& areaOfSurface, const Real& radiusOfSurface);
+
 	/// After the query: the bodies' order, and the frame of the caller's contact.
 	void begin(const PlacedPair& pair, bool exchangedBodies, const ContactResult& result);
 

@@ -61,7 +61,6 @@ template <class R, class Load>
 POLYTOPE_APART void keepLinear(
         const PairQuery<R, 3>& q, const PairSurface<R, 3>& surface, const Load& load, const R* x, LinearContact& linear)
 {
-	using std::abs;
 	using std::sqrt;
 	const ContactFrame<R, 3>& f      = q.frame;
 	const ContactResult&      out    = q.out;
@@ -75,7 +74,8 @@ POLYTOPE_APART void keepLinear(
 	const R radius = sqrt(surface.stiffness->farthest) + norm<R, 3>(x), scale[2] = { 1, 1 / radius };
 
 	// to body 1's axes, moments over the radius and rotations times it
-	R turned[6][6], most = 0;
+	R    turned[6][6], force[3], turning[3];
+	Real own[6][6];
 	for (int i = 0; i < 6; ++i)
 		for (int j = 0; j < 6; ++j) {
 			const R* const axis = f.own[0].m[j % 3];
@@ -90,35 +90,19 @@ POLYTOPE_APART void keepLinear(
 			R              sum  = 0;
 			for (int k = 0; k < 3; ++k)
 				sum += turned[3 * (i / 3) + k][j] * axis[k];
-			slope[i][j] = sum * scale[i / 3];
-			most        = maxOf<R>(most, abs(slope[i][j]));
+			own[i][j] = Real(sum * scale[i / 3]);
 		}
-	if (!(most > 0) || !(most < R(padOffset))) return;
-	R force[3], turning[3];
 	rotate<R, 3>(f.own[0], load.force, force);
 	rotate<R, 3>(f.own[0], moment, turning);
-	for (int k = 0; k < 3; ++k) {
-		linear.load[std::size_t(k)]     = force[k];
-		linear.load[std::size_t(3 + k)] = turning[k] / radius;
-		for (int m = 0; m < 3; ++m) {
-			R sum = 0;
-			for (int i = 0; i < 3; ++i)
-				sum += (*q.in.rotation[0])(i, k) * (*q.in.rotation[1])(i, m);
-			linear.pose[std::size_t(3 * k + m)] = sum;
-		}
+	std::array<Real, 6> present;
+	for (std::size_t k = 0; k < 3; ++k) {
+		present[k]     = Real(force[k]);
+		present[3 + k] = Real(turning[k] / radius);
 	}
-	for (int i = 0; i < 6; ++i)
-		for (int j = 0; j < 6; ++j)
-			linear.slope[std::size_t(6 * j + i)] = float(slope[i][j] / most);
-	linear.unit    = most;
-	linear.energy  = surface.energy ? load.energy : R(-1);
+	linear.keep(*q.in.rotation[0], *q.in.rotation[1], present, own, Real(surface.deepest), out.area, Real(radius));
+	linear.energy  = surface.energy ? Real(load.energy) : Real(-1);
 	linear.perArea = !spring;
-	linear.area    = out.area;
-	linear.radius  = radius;
-	linear.across  = R(tolerance::linearAcross) * surface.deepest;
-	linear.along   = maxOf<R>(linear.across, R(tolerance::linearAlong) * out.area / radius);
 	linear.carrier = f.home == 1;
-	linear.known   = true;
 }
 
 } // namespace polytope

@@ -75,7 +75,8 @@ ShearStrength::ShearStrength(const Vector2* corner, int count, const OutlineMome
 	farthest_ = sqrt(farthest);
 	for (Real& second : second_)
 		second /= 6 * total;
-	leastRadius_ = farthest_ > 0 ? (second_[0] + second_[2]) / farthest_ : Real(0);
+	const Real byMoments = farthest_ > 0 ? (second_[0] + second_[2]) / farthest_ : Real(0), byArea = leastRadiusOnArea(moments.area);
+	leastRadius_ = byMoments > byArea ? byMoments : byArea;
 }
 
 /// The outline's distance from the pole over its half width. Where that is large the triangles between it and the edges cancel: each is larger than the

@@ -22,6 +22,22 @@ namespace polytope {
 
 struct SpreadStrength;
 
+/// A bound from below of the mean distance from any place of a strength that is linear and nowhere negative on a convex outline of this area. At its peak
+/// it is at the most three times its mean, for the centroid of a convex outline is a third of its width from the edge or more; and of all
+/// densities up to that peak the one on a disc is the nearest to a place.
+inline Real leastRadiusOnArea(const Real& area)
+{
+	using std::sqrt;
+	return 2 * sqrt(area / Real(3 * EIGEN_PI)) / 3;
+}
+
+/// Whether force and moment are safely within the limit surface of a strength with this total whose mean distance from any place is not below `radius`: it
+/// is convex, so it holds all between sliding alone and turning alone.
+inline bool surelyHolds(const Vector3& load, const Real& total, const Real& radius)
+{
+	return load.head<2>().norm() * radius + abs(load[2]) <= total * radius;
+}
+
 class ShearStrength {
 public:
 	/// \param total  ∫ τ dA [N], above 0
@@ -31,16 +47,15 @@ public:
 	Real total() const { return total_; }
 	/// Centre of the strength, about which moments are taken [m].
 	const Vector2& centre() const { return centre_; }
-	/// A bound from below, known without any roots, of the mean distance of the strength from its centre [m]: turned on the spot, the face resists with
-	/// total × that distance.
+	/// A bound from below of the mean distance of the strength from any place [m], the mean square over the largest or leastRadiusOnArea(): turned on the
+	/// spot, the face resists with total × that distance at least.
 	Real leastRadius() const { return leastRadius_; }
 
 	/// Force [N] and moment about the centre [N m] by which the face resists a slip (s₁, s₂ [m], φ [rad]) of its centre, and their derivatives.
 	Vector3 resistance(const Vector3& slip, Matrix3* slope = nullptr) const;
 
-	/// Whether force and moment are safely within the limit surface. It is convex, so it holds all between sliding alone and turning alone, and the mean
-	/// distance is not less than the mean square over the largest.
-	bool surelyHolds(const Vector3& load) const { return load.head<2>().norm() * leastRadius_ + abs(load[2]) <= total_ * leastRadius_; }
+	/// Whether force and moment are safely within the limit surface.
+	bool surelyHolds(const Vector3& load) const { return polytope::surelyHolds(load, total_, leastRadius_); }
 
 private:
 	SpreadStrength spread() const;

@@ -140,6 +140,28 @@ TEST(ShearStrength, LeastRadiusIsTheMeanSquareOverTheLargest)
 	}
 }
 
+// The other bound is that of the densest disc: of a triangle whose strength falls from a corner to nothing on the opposite edge, a third of the area.
+// Its radius is then R = √(A/3π), and its mean distance 2R/3.
+TEST(ShearStrength, LeastRadiusOnAreaIsBelowTheMeanDistanceFromAnyPlace)
+{
+	EXPECT_NEAR(leastRadiusOnArea(3 * M_PI), 2 / 3., 1e-15);
+	std::mt19937_64                        random(4);
+	std::uniform_real_distribution<double> place(-1, 1);
+	for (int k = 0; k < 200; ++k) {
+		const Corners        corners = randomOutline(random, 3 + std::size_t(k % 5));
+		const OutlineMoments moments = momentsOf(corners.data(), int(corners.size()));
+		// as far as it goes to one side: there the strength is nowhere negative and nothing on the opposite edge or corner
+		const ShearStrength field = strengthOf(corners, 5 * Vector2(place(random), place(random)));
+		const Real          bound = leastRadiusOnArea(moments.area);
+		EXPECT_GE(field.leastRadius(), bound);
+		for (int turned = 0; turned < 20; ++turned) { // about other places than the centre, too
+			const Vector3 slip(place(random), place(random), 1);
+			EXPECT_GE(field.resistance(slip).dot(slip), bound * (1 - 1e-12));
+			EXPECT_GE(field.resistance(slip).dot(slip), slip.head<2>().norm() * (1 - 1e-12));
+		}
+	}
+}
+
 /// The part of a convex outline in which way·x ≤ place.
 Corners cutOff(const Corners& corners, const Vector2& way, Real place)
 {

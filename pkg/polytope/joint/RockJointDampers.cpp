@@ -53,14 +53,14 @@ namespace {
 		return sum;
 	}
 
-	/// Not below turning() of any direction of length 1.
-	Real mostTurning(const Body& mover)
+	/// 1 over this is not below turning() of any direction of length 1.
+	Real leastInertia(const Body& mover)
 	{
 		const Vector3r& inertia = mover.state->inertia;
 		Real            least   = std::numeric_limits<Real>::infinity();
 		for (int k = 0; k < 3; ++k)
 			if (inertia[k] > 0 && inertia[k] < least) least = inertia[k];
-		return 1 / least;
+		return least;
 	}
 
 	/// uᵀ M⁻¹ u.
@@ -85,12 +85,12 @@ Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody::DampedBody(
 		const StiffnessSum& sum   = sums.last(mover.id);
 		const Real          alike = sum.along(otherIs, normal), others = sum.along(otherThan(otherIs), normal);
 		part  = partOfSum(phys.dampedStiffness, alike);
-		limit = math::max(Real(part / 2), partOfSum(phys.dampedStiffness, alike + others));
+		limit = others > 0 ? math::max(Real(part / 2), partOfSum(phys.dampedStiffness, alike + others)) : part;
 	} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact)) {
 		part  = pair.geom.share;
 		limit = partOfCount(body, mover, pair.geom.share);
 	} else part = limit = partOfArea(body, mover, normal, phys.contactArea);
-	const Real turning = mostTurning(mover) / limit;
+	const Real turning = 1 / (leastInertia(mover) * limit);
 	mostMotion         = { { 1 / (mover.state->mass * limit) + arm.squaredNorm() * turning, turning } };
 }
 

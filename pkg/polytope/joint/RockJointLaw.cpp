@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint/RockJointShear.hpp"
 
+#include "host/ExactClass.hpp"
 #include "host/Prefetch.hpp"
 
 #include <optional>
@@ -14,15 +15,25 @@ namespace {
 	/// Whether the bodies are so far apart that the joint does not remember what it was.
 	bool isFarApart(const PolytopeGeom& geom) { return !(-geom.penetrationDepth < math::min(geom.refR1, geom.refR2)); }
 
+	void fetchLayers(const Interaction& contact)
+	{
+		if (const auto* const phys = exactly<RockJointPhys>(contact.phys.get()))
+			prefetch::fetch(phys->shearLayers.get(), sizeof(LayersOfJoint));
+	}
+
 } // namespace
 
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, shared_ptr<IPhys>& iphys, Interaction* contact)
 {
 	auto& geom = static_cast<PolytopeGeom&>(*igeom);
 	auto& phys = static_cast<RockJointPhys&>(*iphys);
-	prefetch::fetch(phys.shearLayers.get(), sizeof(LayersOfJoint));
+	if (const Interaction* const next = prefetch::readable(*contact, *scene)) fetchLayers(*next);
+	if (damps()) {
+		stiffnessSums.begin(*scene);
+		for (const Body::id_t id : { contact->getId1(), contact->getId2() })
+			stiffnessSums.fetch(id);
+	}
 	const Pair pair(*contact, geom, scene);
-	if (damps()) stiffnessSums.begin(*scene);
 
 	Vector3r elasticShear = phys.shearForce - phys.shearViscous;
 	turnWithContact(geom, elasticShear);

@@ -150,9 +150,10 @@ bool Shear::limit(const RockJointPhys& phys, Real normal)
 		layers_.move((before - force_) / stiffness_);
 		return true;
 	}
-	const polytope::Vector2        centre = centreOfStrength(phys, strength);
+	const polytope::Vector2 centre = centreOfStrength(phys, strength);
+	polytope::Vector3       load   = loadAbout(centre, force_, twist_);
+	if (polytope::surelyHolds(load, strength, polytope::leastRadiusOnArea(moments_.area))) return false;
 	const polytope::ShearStrength& spread = spreadStrength(strength, centre);
-	polytope::Vector3              load   = loadAbout(centre, force_, twist_);
 	if (spread.surelyHolds(load)) return false;
 	const auto              bed  = polytope::bedStiffness(stiffness_, gyration_, moments_.centroid - centre);
 	const polytope::Vector3 slip = polytope::returnToStrength(spread, bed, load, likelySlip_);
@@ -184,8 +185,12 @@ void Shear::damp(const RockJointPhys& phys, Real normal, Real damper, Real twist
 		// within the part of the limit surface that ShearStrength::surelyHolds() knows
 		const polytope::Vector2 centre = centreOfStrength(phys, strength);
 		const Real              before = math::abs(loadAbout(centre, force_, twist_)[2]),
-		           after               = math::abs(loadAbout(centre, force_ + viscous_, twist_ + viscousTwist_)[2]);
-		strength -= math::max(before, after) / spreadStrength(strength, centre).leastRadius();
+		           after               = math::abs(loadAbout(centre, force_ + viscous_, twist_ + viscousTwist_)[2]),
+		           turning = math::max(before, after), sliding = strength - turning / polytope::leastRadiusOnArea(moments_.area);
+		// what is within the bound that the area alone gives needs no other
+		strength = fractionWithin(sliding, force_, viscous_) == 1
+		        ? sliding
+		        : strength - turning / spreadStrength(strength, centre).leastRadius();
 	}
 	const Real part = fractionWithin(strength, force_, viscous_);
 	viscous_ *= part;

@@ -11,6 +11,8 @@
 #include <boost/serialization/tracking.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include "host/Prefetch.hpp"
+
 #include <array>
 #include <atomic>
 #include <mutex>
@@ -74,7 +76,13 @@ public:
 	const StiffnessSum& last(Body::id_t body) const { return ofBody(last_, body); }
 	/// Sum of the newest step [N/m]; for use between two loops over the contacts.
 	const StiffnessSum& newest(Body::id_t body) const { return ofBody(newest_, body); }
-	void                add(Body::id_t body, Across across, Real stiffness, const Vector3r& normal);
+	/// Prefetches what a contact of this body reads and adds to.
+	void fetch(Body::id_t body) const
+	{
+		prefetch::fetch(&last(body), sizeof(StiffnessSum));
+		prefetch::fetch(&newest(body), sizeof(StiffnessSum));
+	}
+	void add(Body::id_t body, Across across, Real stiffness, const Vector3r& normal);
 
 	/// The newest sums of these bodies, and the step that they are of. The reverse replaces them, if they are not older than those that there are, for
 	/// these bodies had no contact since. For processes that have a part of the scene each (py/polytope/mpi).
