@@ -23,6 +23,7 @@ set(plugin_headers
 	contact/StoredOutline.hpp
 	contact/StoredVertices.hpp
 	host/CheckedAttributes.hpp
+	host/ChangeOfBodies.hpp
 	host/FoundInStep.hpp
 	host/InteractionLoops.hpp
 	host/PeriodOfPair.hpp

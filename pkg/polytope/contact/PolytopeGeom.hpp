@@ -5,6 +5,7 @@
 #include "contact/ContactCounters.hpp"
 #include "contact/StoredOutline.hpp"
 #include "contact/StoredVertices.hpp"
+#include "host/ChangeOfBodies.hpp"
 #include "host/FlatArchive.hpp"
 #include "host/FoundInStep.hpp"
 #include "host/Seldom.hpp"
@@ -280,6 +281,7 @@ private:
 
 	mutable FoundInStep<Ig2_Polytope_Polytope_PolytopeGeom> settings_;
 	BondsInStep                                             bonds_;
+	ChangeOfBodies                                          changeOfBodies_;
 	CandidateMemory                                         candidates_;
 	std::vector<ContactCounters>                            counters_ = std::vector<ContactCounters>(omp_get_max_threads());
 };

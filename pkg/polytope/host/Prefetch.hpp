@@ -15,8 +15,7 @@ namespace yade {
 
 namespace prefetch {
 
-	/// How many pairs ahead. The gaps let each address arrive before it is followed; half and twice of all three cost the same within a
-	/// tenth in a heap of 10 000 cubes.
+	/// How many pairs ahead. The gaps let each address arrive before it is followed; how long they are matters little.
 	constexpr int place = 16, pair = 8, bodyPlaces = 6, parts = 4, bodyParts = 2;
 
 	/// Bytes of a contact's physics that are fetched: what is read in each step. Where the physics of joints are defined, it is checked that

@@ -119,6 +119,26 @@ def testPiecesOfAFloorAreFollowed(perArea):
 	assert len(found[True][0][1]) > len(found[True][1][1]) >= 4
 
 
+def testAPieceIsMissedInTheStepAfterItWasErased():
+	"""With a stiffness per contact its neighbours have their larger shares at once, whichever step is the one in which a pair looks for neighbours."""
+	block = buildOverPieces(True, perArea=False)
+	polytope.run(until=O.time + 1)
+
+	def shares():
+		return {contact.id1: contact.geom.share for contact in O.interactions if contact.isReal and contact.id2 == block}
+
+	before = shares()
+	O.bodies.erase(1)
+	O.step()
+	after = shares()
+	O.run(16, wait=True)
+	later = shares()
+	assert later.keys() == after.keys() == before.keys() - {1}
+	for piece in after:
+		assert after[piece] == pytest.approx(later[piece], abs=2e-3)
+	assert max(after[piece] - before[piece] for piece in after) > 0.05
+
+
 def testASlowTurntableTakesTheOutlineAlong():
 	"""A block off the axis of a floor that turns: its outline turns with it, in the world by a right angle, and what friction holds is the centripetal
 	force."""
