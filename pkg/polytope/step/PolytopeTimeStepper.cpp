@@ -58,22 +58,27 @@ bool PolytopeTimeStepper::isActivated()
 	if (!active) return false;
 	const auto* const law       = dampingLaw(*scene);
 	const bool        stiffened = law && law->hasStiffened();
-	return stiffened || !hasRun_ || bodies_ != scene->bodies->size() || springs_ != springsMade(*scene)
+	return stiffened || !last.there || last.bodies != scene->bodies->size() || last.springs != springsMade(*scene)
 	        || isErased(limitingBody, *scene) || scene->iter % long(math::max(timeStepUpdateInterval, 1u)) == 0;
 }
 
 void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 {
 	const std::size_t movers = moversOf(*ofScene);
-	if (!hasRun_ || bodies_ != ofScene->bodies->size() || movers != movers_ || isErased(material_.body, *ofScene)
-	        || ++updates_ >= polytope::tolerance::potentialUpdates) {
-		material_ = potential_.limit(*ofScene);
-		updates_  = 0;
+	if (!last.there || last.bodies != ofScene->bodies->size() || movers != last.movers || isErased(last.body, *ofScene)
+	        || ++last.updates >= polytope::tolerance::potentialUpdates) {
+		const TimeStepLimit found = potential_.limit(*ofScene);
+		last.step                 = found.step;
+		last.body                 = found.body;
+		last.updates              = 0;
 	}
-	hasRun_  = true;
-	bodies_  = ofScene->bodies->size();
-	movers_  = movers;
-	springs_ = springsMade(*ofScene);
+	last.there   = true;
+	last.bodies  = ofScene->bodies->size();
+	last.movers  = movers;
+	last.springs = springsMade(*ofScene);
+	TimeStepLimit material;
+	material.step = last.step;
+	material.body = last.body;
 
 	TimeStepLimit chosen;
 	limitedBy.clear();
@@ -84,8 +89,8 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 		chosen.body = limit.body;
 		limitedBy   = name;
 	};
-	const ContactLimit contacts = contactLimit(*ofScene, material_.step);
-	consider(material_, timestepSafetyCoefficient, "material");
+	const ContactLimit contacts = contactLimit(*ofScene, material.step);
+	consider(material, timestepSafetyCoefficient, "material");
 	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
 	consider(yade::motionLimit(*ofScene, motionLimit, math::min(chosen.step, maxDt), timeStepUpdateInterval), 1, "motion");
 	if (limitedBy.empty()) consider(periodLimit(*ofScene), polytope::tolerance::periodStep, "period");

@@ -7,7 +7,31 @@
 
 #include <core/TimeStepper.hpp>
 
+#include <cstdint>
+#include <limits>
+
 namespace yade {
+
+/// What the last update of the time step has found. Saved, so that a run which is loaded goes on as if it had not been interrupted.
+struct LastTimeStepUpdate {
+	bool          there   = false;
+	Real          step    = std::numeric_limits<Real>::infinity(); ///< *material*, of the last evaluation of PotentialContacts
+	Body::id_t    body    = Body::ID_NONE;                         ///< which that is of
+	std::uint64_t updates = 0;                                     ///< since then
+	std::uint64_t bodies = 0, springs = 0;                         ///< that there were
+	std::uint64_t movers = 0;                                      ///< a number that stands for the bodies that could move
+
+	template <class Archive> void serialize(Archive& archive, unsigned int)
+	{
+		archive& BOOST_SERIALIZATION_NVP(there);
+		archive& BOOST_SERIALIZATION_NVP(step);
+		archive& BOOST_SERIALIZATION_NVP(body);
+		archive& BOOST_SERIALIZATION_NVP(updates);
+		archive& BOOST_SERIALIZATION_NVP(bodies);
+		archive& BOOST_SERIALIZATION_NVP(springs);
+		archive& BOOST_SERIALIZATION_NVP(movers);
+	}
+};
 
 class PolytopeTimeStepper : public TimeStepper, public FindsTimeStep {
 public:
@@ -17,7 +41,7 @@ public:
 	void computeTimeStep(Scene* ofScene) override;
 	bool knowsNotAll(const Scene& ofScene, bool freed) const override
 	{
-		return active && !dead && hasRun_ && (freed || bodies_ != ofScene.bodies->size());
+		return active && !dead && last.there && (freed || last.bodies != ofScene.bodies->size());
 	}
 
 	/// Refuses values out of range, naming the attribute, and restores the last good ones.
@@ -60,6 +84,7 @@ scene where nothing limits it. Not for MPI, where each process has its own bodie
 		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it "
 		        "contributes more than half of that body's $\\omega^2$), *motion*, *period* or *maxDt*; empty: nothing limits it, O.dt is "
 		        "not changed."))
+		((LastTimeStepUpdate, last, , (Attr::readonly | Attr::hidden), "What the last update has found"))
 		, /*ctor*/ timeStepUpdateInterval = 50;
 		, /*py*/
 		.add_property("timeStepUpdateInterval", &PolytopeTimeStepper::getTimeStepUpdateInterval, &PolytopeTimeStepper::setTimeStepUpdateInterval,
@@ -71,11 +96,6 @@ private:
 	bool isErased(Body::id_t body, const Scene& ofScene) const { return body != Body::ID_NONE && !ofScene.bodies->exists(body); }
 
 	PotentialContacts                   potential_;
-	TimeStepLimit                       material_;    ///< of the last evaluation of potential_
-	unsigned                            updates_ = 0; ///< since then
-	bool                                hasRun_  = false;
-	std::size_t                         bodies_ = 0, springs_ = 0; ///< that there were
-	std::size_t                         movers_ = 0;               ///< moversOf() the scene then
 	CheckedAttributes<Real, Real, Real> checked_ { std::tie(timestepSafetyCoefficient, motionLimit, maxDt) };
 };
 REGISTER_SERIALIZABLE(PolytopeTimeStepper);

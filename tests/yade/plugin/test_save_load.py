@@ -49,6 +49,11 @@ def surfaceHeap():
 	heap()
 	O.engines[2].geomDispatcher.functors[0].contactModel = 'spring'
 
+def ownStep():
+	"""O.dt is found by the scene, and the break lies between two updates of it."""
+	heap()
+	O.engines += [PolytopeTimeStepper()]
+
 def slide(perArea):
 	"""A prism slides over the joints of three flush plates that meet in a T."""
 	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.1)
@@ -131,7 +136,7 @@ def state():
 		out += [*s.pos, *s.ori, *s.vel, *s.angVel, *s.angMom]
 	for i in sorted(O.interactions, key=lambda i: (i.id1, i.id2)):
 		if i.isReal: out += [i.id1, i.id2, *i.phys.normalForce, *i.phys.shearForce, i.geom.penetrationDepth]
-	out += [v for _, v in sorted(O.energy.items())]
+	out += [v for _, v in sorted(O.energy.items())] + [O.dt]
 	return ' '.join(float(x).hex() for x in out)
 
 scene, before, after, archive, energy = sys.argv[2], int(sys.argv[3]), int(sys.argv[4]), sys.argv[5], sys.argv[6] == 'energy'
@@ -189,6 +194,7 @@ def testSlideOverJointsIsResumed(scene, tmp_path):
 
 others = [
 	('centroidHeap', 2500, 200, 4),
+	('ownStep', 3017, 300, 2),
 	('mixed', 1500, 300, 4),
 	('polygons', 1200, 300, 6),
 	('shearedCell', 600, 300, 4),
@@ -203,7 +209,7 @@ others.append(pytest.param('ipoptTower', 40, 20, 2, marks=needsIpopt))
 def testOtherScenesAreResumed(scene, before, after, contacts, tmp_path):
 	uninterrupted, resumed = runs(scene, before, after, tmp_path / 'scene.yade.gz')
 	assert resumed == uninterrupted
-	bodies = {'centroidHeap': 13, 'ipoptTower': 3, 'mixed': 9, 'polygons': 9, 'shearedCell': 64, 'clumps': 10}[scene]
+	bodies = {'centroidHeap': 13, 'ownStep': 13, 'ipoptTower': 3, 'mixed': 9, 'polygons': 9, 'shearedCell': 64, 'clumps': 10}[scene]
 	assert len(uninterrupted) >= bodies * 16 + contacts * 9
 
 
