@@ -199,7 +199,11 @@ constexpr Real flushOfDepth = 0.05;
 constexpr Real flushPlaces = 8 * rounding;
 
 /// × the inscribed radius of the body that lies on a piece: where the overlap is deeper below a face of the piece, it does not slide on
-/// this face. Overlaps of DEM are a hundredth at the most. The piece may be thin.
+/// this face. Faces that are internal must not become faces within an impact, where the energies of both differ: no overlap of DEM is so deep. The
+/// piece may be thin.
+constexpr Real deepestSlide = 1;
+
+/// × the inscribed radius of a shape's core: how deep a shape with a margin may be in one of several pieces that share its contact.
 constexpr Real thinContact = 0.1;
 
 /// One minus the cosine between normals of one body that count as one direction.

@@ -77,14 +77,15 @@ bool Ig2_Sphere_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const
 	            : Real(1);
 	const Real depth     = radius - nearest.distance;
 	result.depth         = depth;
-	result.energy        = result.inContact ? depth * depth / 2 : Real(0); // a force along the gradient of a distance is conservative
 	result.infeasibility = -depth / 2; // the diameter of the largest ball between a sphere and a plane is the depth
 	result.normal        = -nearest.outward;
 	result.point         = (radius - depth / 2) * result.normal;
 	result.area          = share * Mathr::PI * discRadiusSquared(radius, depth);
 	if (result.inContact) {
 		PolytopeGeom& geom = geometry(c);
-		if (!wasReal && share < 1) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
+		if (!wasReal) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
+		const bool perArea = geom.stiffnessRule == int(StiffnessRule::PerArea);
+		result.energy      = depth * depth * (perArea ? energyOfSpherePerArea(radius, depth) : Real(0.5));
 		giveShare(share, geom, *c, result);
 	}
 	return apply(result, state1.pos, state1, state2, shift2, force, c);

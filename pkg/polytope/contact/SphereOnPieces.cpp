@@ -65,6 +65,12 @@ Real discRadiusSquared(const Real& radius, const Real& depth)
 	return cap * (2 * radius - cap);
 }
 
+Real energyOfSpherePerArea(const Real& radius, const Real& depth)
+{
+	const Real part = math::min(Real(depth / radius), Real(2));
+	return (Real(1) / 3 - part / 16) / (1 - part / 4);
+}
+
 Real shareOfSphere(
         const Body& sphere, const Real& radius, const Body& piece, const Vector3r& centre, Scene& scene, NearestOfSphere& nearest)
 {

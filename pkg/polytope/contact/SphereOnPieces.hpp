@@ -31,6 +31,10 @@ NearestOfSphere nearestOfSphere(const polytope::ConvexShape& solid, const Vector
 /// Square of the radius of the disc in which a sphere is cut half as deep as it overlaps.
 Real discRadiusSquared(const Real& radius, const Real& depth);
 
+/// Energy of a sphere's contact whose stiffness is one per that disc's area A, over the present stiffness and the square of the depth h:
+/// ∫ A h dh / (A h²). A linear spring has 1/2.
+Real energyOfSpherePerArea(const Real& radius, const Real& depth);
+
 /// For a sphere in contact with a piece: replaces the nearest point of the piece by that of all pieces that meet there. Returns the
 /// contact's share of the stiffness.
 Real shareOfSphere(

@@ -12,12 +12,14 @@ from yade import (
 	HyperbolicClosure,
 	Ip2_FrictMat_FrictMat_FrictPhys,
 	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
 	MatchMaker,
 	O,
 	Quaternion,
 	RockJointMat,
 	Vector3,
 	polytope,
+	utils,
 )
 from yade.polytope.measures.energy import storedEnergy
 from yade.polytope.motionRecord import MotionRecord
@@ -52,6 +54,28 @@ def testBounceOnASpringAtAnyTimeStep(model):
 		O.step()
 	assert max(heights) < 0.5 and max(heights) - min(heights) > 1e-3  # it swings, and stays in contact
 	assert energies(40) < (1e-12 if model == 'boon2012' else 1e-7)
+
+
+@pytest.mark.parametrize('perArea', [True, False])
+@pytest.mark.parametrize('pieces', [1, 2])
+def testASphereThatBouncesKeepsItsEnergy(perArea, pieces):
+	"""With a stiffness per area its disc grows as it sinks in: the energy is about a third of force times depth, a linear spring's half."""
+	O.materials.append(
+		RockJointMat(density=2600, normalStiffness=3e8 if perArea else 2e7, shearStiffness=1e7, frictionAngle=0, stiffnessPerArea=perArea)
+	)
+	O.bodies.append([polytope.cuboid((x, 0, -0.5), (2 / pieces, 2, 0.5), fixed=True) for x in ([0] if pieces == 1 else [-1, 1])])
+	O.bodies.append(utils.sphere((0.013, 0, 0.2001), 0.2))
+	O.bodies[-1].state.vel = (0.3, 0, -3)
+	O.engines = polytope.engines(damping=0, gravity=(0, 0, 0), timeStepper=False, law=Law2_PolytopeGeom_RockJointPhys_MohrCoulomb())
+	O.dt = 2e-6
+	first, depths = polytope.mechanicalEnergy(), []
+	while not depths or any(contact.isReal for contact in O.interactions):
+		O.step()
+		if any(contact.isReal for contact in O.interactions):
+			depths.append(max(contact.geom.penetrationDepth for contact in O.interactions if contact.isReal))
+			if len(depths) % 50 == 0:
+				assert polytope.mechanicalEnergy() == pytest.approx(first, rel=1e-4)
+	assert max(depths) > 5e-3
 
 
 def testIsOfThePositionsTheStepBeganAt():

@@ -545,12 +545,15 @@ def energyLeft(model, pieces, tilt, speed, x):
 	return utils.kineticEnergy() / before, deepest
 
 
-@pytest.mark.parametrize('model, least, most, shallowest', [('foundation', 0.985, 1, 0.065), ('spring', 0.985, 1.025, 0.04)])
-def testEnergyOfADeepImpactOnASeam(model, least, most, shallowest):
-	"""A corner sinks in by 0.04 to 0.17 of the edge. What pierces two pieces so deeply slides on none of them: each presses on its own part."""
-	for tilt, speed in ((0.3, 15), (0.8, 5), (0.8, 15)):
-		assert energyLeft(model, 1, tilt, speed, 0)[0] == pytest.approx(1, abs=1e-4)
-		for x in (0, 0.05):
+@pytest.mark.parametrize('model', ['foundation', 'spring'])
+def testEnergyOfADeepImpactOnASeam(model):
+	"""A corner sinks in by 0.04 to 0.17 of the edge, beside the seam or across it: as on one plate. Where such faces count as internal up to a tenth of the
+	inscribed radius alone, it leaves sideways, with up to 1.9 times its energy."""
+	for tilt, speed in ((0.3, 5), (0.3, 15), (0.8, 5), (0.8, 15)):
+		alone, depth = energyLeft(model, 1, tilt, speed, 0)
+		assert alone == pytest.approx(1, abs=1e-4)
+		assert 0.03 < depth < 0.175
+		for x in (0, 0.03, 0.05):
 			left, deepest = energyLeft(model, 2, tilt, speed, x)
-			assert least < left < most + 1e-4 and shallowest < deepest < 0.175
-	assert energyLeft(model, 2, 0.3, 5, 0.05)[0] == pytest.approx(1, abs=1e-4), 'it slides on one plate'
+			assert left == pytest.approx(1, abs=1e-4)
+			assert deepest == pytest.approx(depth, rel=1e-3)
