@@ -118,7 +118,7 @@ POLYTOPE_INLINE void surfaceOfPair(const PairQuery<R, D>& q, bool across, Surfac
 	// one call, so that the code of the surface is there once: a second time only where the solid of several pieces has none
 	for (bool found = false; !found;) {
 		findSurface<R, D, W>(q.planes, optimum, q.workspace, surface);
-		found = !surface.on || slidesOnPieces<R, D>(q.in, q.frame, q.limits, *settings.internal, surface);
+		found = !surface.on || isFoundOnPieces<R, D>(q.limits, surface);
 		extended.restore();
 		if (!found) surface = PairSurface<R, D>(q.frame.size, surface.energy, surface.outline, surface.kept);
 	}

@@ -5,7 +5,6 @@
 #include "contact/ContactPointRules.hpp"
 #include "contact/PairSurface.hpp"
 #include "contact/PhaseOne.hpp"
-#include "contact/SlidingDepth.hpp"
 #include "contact/StartBasis.hpp"
 
 /// The contact surface of a body on one of several flush pieces: that of the solid which they make, without the faces between them, and the
@@ -46,21 +45,6 @@ private:
 	int               count_ = 0, place_[2 * BoundingPlanes::most];
 	R                 offset_[2 * BoundingPlanes::most];
 };
-
-/// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: twice the
-/// depth at which the body still slides, since beside the seam the piece's own part of the overlap is less deep.
-template <class R, int D>
-POLYTOPE_APART R internalDepth(const PlacedPair& in, const ContactFrame<R, D>& f, const InternalPlanes& internal, const R* n)
-{
-	R least = R(padOffset);
-	for (int piece = 0; piece < 2; ++piece) {
-		if (internal.count[piece] == 0) continue;
-		R own[3] = { 0, 0, 0 };
-		rotate<R, D>(f.own[piece], n, own);
-		least = minOf<R>(least, R(slidingDepth(*in.shape[piece], *in.shape[1 - piece], Vector3(own[0], own[1], own[2]))));
-	}
-	return 2 * least;
-}
 
 /// The planes that bound the overlap, with their slacks at its analytic centre. What is in the frame turns with it.
 template <class R, int D, int W> POLYTOPE_APART void boundingPlanesOf(PairQuery<R, D> q)
@@ -124,19 +108,11 @@ POLYTOPE_APART bool beginOnPieces(
 	return true;
 }
 
-/// Whether the surface of the extended piece was found, and the overlap is that of a body which slides on these pieces.
-template <class R, int D>
-POLYTOPE_APART bool slidesOnPieces(const PlacedPair& in, const ContactFrame<R, D>& f, const ProgramLimits<R>& limits,
-        const InternalPlanes& internal, const PairSurface<R, D>& surface)
+/// Whether the surface of the extended piece was found, with a force that has an area across it.
+template <class R, int D> POLYTOPE_APART bool isFoundOnPieces(const ProgramLimits<R>& limits, const PairSurface<R, D>& surface)
 {
-	if (surface.status != SurfaceStatus::Found || !(surface.deepest > limits.tolerance)) return false;
-	const R length = norm<R, D>(surface.sums.force);
-	if (!(length > 0)) return false;
-	R n[D];
-	for (int k = 0; k < D; ++k)
-		n[k] = surface.sums.force[k] / length;
-	const R area = dot<R, D>(surface.sums.areaVector, n);
-	return area > 0 && 2 * length < area * internalDepth<R, D>(in, f, internal, n);
+	return surface.status == SurfaceStatus::Found && surface.deepest > limits.tolerance
+	        && dot<R, D>(surface.sums.areaVector, surface.sums.force) > 0;
 }
 
 } // namespace polytope

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/InternalFaces.hpp"
 
-#include <src/contact/SlidingDepth.hpp>
+#include <src/numbers/Tolerances.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -60,6 +60,13 @@ namespace {
 		return chord;
 	}
 
+	/// How deep a body may be below a face of a piece and still slide on it: within the thickness of the piece, and not as deep as half the
+	/// body. Deeper, it comes from another side, or has passed through. `normal`: of the face, in the piece's axes.
+	Real slidingDepth(const polytope::ConvexShape& piece, const polytope::ConvexShape& body, const Vector3r& normal)
+	{
+		return math::min(piece.widthAlong(normal), Real(Real(polytope::tolerance::deepestSlide) * body.inscribedRadius()));
+	}
+
 	/// Pairs of a plane i near the overlap and a face j that the other body may slide on. `outside` is reached along j, so that it keeps the
 	/// contact point's height below it.
 	std::vector<Candidate> candidatesOf(
@@ -67,10 +74,10 @@ namespace {
 	{
 		std::vector<Candidate> all;
 		for (int j = 0; j < bounding.count[piece]; ++j) {
-			const Vector3r& face    = normals[piece][j];
-			const Chord     chord   = chordBelow(bounding, piece, j, normals);
-			const Real      deepest = polytope::slidingDepth(
-                                *pair.convex[piece], *pair.convex[1 - piece], pair.rotation[piece].transpose() * face);
+			const Vector3r& face  = normals[piece][j];
+			const Chord     chord = chordBelow(bounding, piece, j, normals);
+			const Real      deepest
+			        = slidingDepth(*pair.convex[piece], *pair.convex[1 - piece], pair.rotation[piece].transpose() * face);
 			if (!(chord.length < deepest)) continue;
 			for (int i = 0; i < bounding.count[piece]; ++i) {
 				const Vector3r& normal = normals[piece][i];
