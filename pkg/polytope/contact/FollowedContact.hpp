@@ -11,7 +11,7 @@ struct MotionInStep {
 	Vector3r translation, rotation;
 };
 
-/// One contact of two polytopes in one step.
+/// One contact in one step.
 class FollowedContact {
 public:
 	FollowedContact(const polytope::PlacedPair& pair, const polytope::ContactOptions& options, bool wasReal, PolytopeGeom& geom)

@@ -55,7 +55,7 @@ contacts of the scene: functors of other pairs have none of their own. Nothing i
 		        "for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores "
 		        ":yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
 		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point, and take contacts whose bodies hardly move from "
-		        "their last full computation, to first order (docs/contact-surface.md): forces differ by less than 1e-5 from those of "
+		        "their last full computation, to first order (docs/contact-surface.md): forces differ by some 1e-5 from those of "
 		        "*False*."))
 		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's "
 		        "circumradius [-]."))

@@ -180,10 +180,9 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	geom.atOnePoint                        = !surface;
 
 	// internal faces are searched for new contacts, for all where bodies were added or erased, and for the others every few steps, not all in the same step
-	const bool      turn          = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
-	const bool      bodiesChanged = changeOfBodies_.in(*scene);
-	const bool      asPieces      = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
-	const bool      search        = asPieces && (turn || !geom.internalKnown || !wasReal || bodiesChanged);
+	const bool      turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
+	const bool      asPieces = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
+	const bool      search   = asPieces && (turn || !geom.internalKnown || !wasReal || changeOfBodies_.in(*scene));
 	FollowedContact followed(pair, options, wasReal, geom);
 	polytope::ContactResult result;
 	if (!search && followed.take(result)) return write(result, frame1.origin, state1, state2, shift2, force, c);

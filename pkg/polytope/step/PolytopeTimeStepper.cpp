@@ -65,20 +65,15 @@ bool PolytopeTimeStepper::isActivated()
 void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 {
 	const std::size_t movers = moversOf(*ofScene);
-	if (!last.there || last.bodies != ofScene->bodies->size() || movers != last.movers || isErased(last.body, *ofScene)
+	if (!last.there || last.bodies != ofScene->bodies->size() || movers != last.movers || isErased(last.material.body, *ofScene)
 	        || ++last.updates >= polytope::tolerance::potentialUpdates) {
-		const TimeStepLimit found = potential_.limit(*ofScene);
-		last.step                 = found.step;
-		last.body                 = found.body;
-		last.updates              = 0;
+		last.material = potential_.limit(*ofScene);
+		last.updates  = 0;
 	}
 	last.there   = true;
 	last.bodies  = ofScene->bodies->size();
 	last.movers  = movers;
 	last.springs = springsMade(*ofScene);
-	TimeStepLimit material;
-	material.step = last.step;
-	material.body = last.body;
 
 	TimeStepLimit chosen;
 	limitedBy.clear();
@@ -89,8 +84,8 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 		chosen.body = limit.body;
 		limitedBy   = name;
 	};
-	const ContactLimit contacts = contactLimit(*ofScene, material.step);
-	consider(material, timestepSafetyCoefficient, "material");
+	const ContactLimit contacts = contactLimit(*ofScene, last.material.step);
+	consider(last.material, timestepSafetyCoefficient, "material");
 	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
 	consider(yade::motionLimit(*ofScene, motionLimit, math::min(chosen.step, maxDt), timeStepUpdateInterval), 1, "motion");
 	if (limitedBy.empty()) consider(periodLimit(*ofScene), polytope::tolerance::periodStep, "period");

@@ -8,24 +8,22 @@
 #include <core/TimeStepper.hpp>
 
 #include <cstdint>
-#include <limits>
 
 namespace yade {
 
 /// What the last update of the time step has found. Saved, so that a run which is loaded goes on as if it had not been interrupted.
 struct LastTimeStepUpdate {
-	bool          there   = false;
-	Real          step    = std::numeric_limits<Real>::infinity(); ///< *material*, of the last evaluation of PotentialContacts
-	Body::id_t    body    = Body::ID_NONE;                         ///< which that is of
-	std::uint64_t updates = 0;                                     ///< since then
-	std::uint64_t bodies = 0, springs = 0;                         ///< that there were
-	std::uint64_t movers = 0;                                      ///< a number that stands for the bodies that could move
+	bool          there = false;
+	TimeStepLimit material;                ///< of the last evaluation of PotentialContacts
+	std::uint64_t updates = 0;             ///< since then
+	std::uint64_t bodies = 0, springs = 0; ///< that there were
+	std::uint64_t movers = 0;              ///< a number that stands for the bodies that could move
 
 	template <class Archive> void serialize(Archive& archive, unsigned int)
 	{
 		archive& BOOST_SERIALIZATION_NVP(there);
-		archive& BOOST_SERIALIZATION_NVP(step);
-		archive& BOOST_SERIALIZATION_NVP(body);
+		archive& boost::serialization::make_nvp("step", material.step);
+		archive& boost::serialization::make_nvp("body", material.body);
 		archive& BOOST_SERIALIZATION_NVP(updates);
 		archive& BOOST_SERIALIZATION_NVP(bodies);
 		archive& BOOST_SERIALIZATION_NVP(springs);
