@@ -40,6 +40,15 @@ polytope::ContactOptions Ig2_Polytope_Polytope_PolytopeGeom::checkedOptions() co
 	                { "centroid", ContactPoint::Centroid } });
 	result.solver       = meaning<CentreSolver>(
                 "solver", solver, "'newton' or 'ipopt'", { { "newton", CentreSolver::Newton }, { "ipopt", CentreSolver::Ipopt } });
+	if (hasSurface(result.contactModel)) {
+		const auto refuseOther = [&](const std::string& attribute, const std::string& value, const std::string& byDefault) {
+			if (value != byDefault)
+				polytope::refuse(attribute + ": '" + value + "' is an option of contactModel='boon2012' alone, set that first; '"
+				        + contactModel + "' goes with " + attribute + "='" + byDefault + "'");
+		};
+		refuseOther("contactPoint", contactPoint, "analyticCentre");
+		refuseOther("solver", solver, "newton");
+	}
 	result.tolerance        = tolerance;
 	result.newtonTolerance  = newtonTolerance;
 	const std::string fault = faultOf(result);

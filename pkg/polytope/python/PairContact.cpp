@@ -73,12 +73,14 @@ Contact contact(const py::object& b1, const py::object& b2, const py::object& co
 	if (convex1.dimension() != convex2.dimension())
 		throw std::invalid_argument("b2: a polygon and a polyhedron cannot touch; both must have the same dimension");
 	const auto& ofScene = yade::Ig2_Polytope_Polytope_PolytopeGeom::orDefault(*yade::Omega::instance().getScene());
-	yade::Ig2_Polytope_Polytope_PolytopeGeom functor; // which checks them
-	functor.contactPoint    = given(contactPoint, ofScene.contactPoint);
+	static const yade::Ig2_Polytope_Polytope_PolytopeGeom defaults;
+	yade::Ig2_Polytope_Polytope_PolytopeGeom              functor; // which checks them
+	functor.contactModel    = given(contactModel, ofScene.contactModel);
+	const auto& ofModel     = functor.contactModel == ofScene.contactModel ? ofScene : defaults; // the scene's are options of its model
+	functor.contactPoint    = given(contactPoint, ofModel.contactPoint);
+	functor.solver          = given(solver, ofModel.solver);
 	functor.tolerance       = given(tolerance, ofScene.tolerance);
 	functor.newtonTolerance = given(newtonTolerance, ofScene.newtonTolerance);
-	functor.solver          = given(solver, ofScene.solver);
-	functor.contactModel    = given(contactModel, ofScene.contactModel);
 	functor.callPostLoad();
 	polytope::ContactSettings settings(functor.options(ruleOf(*body1, *body2)));
 	settings.energy            = true;

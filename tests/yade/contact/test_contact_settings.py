@@ -30,7 +30,7 @@ from yade import (
 tilt = Quaternion(Vector3(1, 0.3, 0).normalized(), 0.02)
 floors = 'polytope', 'box', 'wall'
 others = {
-	'contactModel': 'spring',
+	'contactModel': 'boon2012',
 	'contactPoint': 'centroid',
 	'solver': 'newton',
 	'warmStart': False,
@@ -185,3 +185,26 @@ def testEnginesThatAreMadeAreCheckedWithTheirOwnSettings():
 	with warnings.catch_warnings():
 		warnings.simplefilter('error')
 		polytope.engines(**undamped)
+
+
+@pytest.mark.parametrize('option', [{'contactPoint': 'centroid'}, {'contactPoint': 'chebyshevCentre'}, {'solver': 'ipopt'}])
+def testOptionsOfThePapersContactAreRefusedWithAnother(option):
+	name, value = next(iter(option.items()))
+	for model in ('surface', 'foundation', 'spring'):
+		with pytest.raises(ValueError, match=f"{name}: '{value}' is an option of contactModel='boon2012' alone, set that first; '{model}'"):
+			Ig2_Polytope_Polytope_PolytopeGeom(contactModel=model, **option)
+	geometry = Ig2_Polytope_Polytope_PolytopeGeom()
+	with pytest.raises(ValueError, match=name):
+		setattr(geometry, name, value)
+	with pytest.raises(ValueError, match=name):
+		polytope.contact(polytope.cuboid((0, 0, 0), (1, 1, 1)), polytope.cuboid((0, 0, 1), (1, 1, 1)), **option)
+
+
+def testOptionsOfThePapersContactAreThoseOfItsSceneAlone():
+	blocksOnFloors(functors(contactModel='boon2012', contactPoint='centroid'))
+	geometry = O.engines[2].geomDispatcher.functors[2]
+	with pytest.raises(ValueError, match="contactPoint: 'centroid' .* 'spring' goes with contactPoint='analyticCentre'"):
+		geometry.contactModel = 'spring'
+	assert geometry.contactModel == 'boon2012'
+	ofSurface = polytope.contact(O.bodies[0], O.bodies[1], contactModel='spring')
+	assert tuple(ofSurface.point) != tuple(polytope.contact(O.bodies[0], O.bodies[1]).point)

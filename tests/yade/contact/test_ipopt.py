@@ -103,7 +103,7 @@ def testTwoThreadsAgreeAndNothingIsPrinted():
 
 
 def testUnknownSolverIsRefusedAndTheLastOneKept():
-	geometry = Ig2_Polytope_Polytope_PolytopeGeom()
+	geometry = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012')
 	with pytest.raises(ValueError, match="solver: must be 'newton' or 'ipopt', not 'mosek'"):
 		geometry.solver = 'mosek'
 	assert geometry.solver == 'newton'
@@ -118,9 +118,9 @@ def testUnknownSolverIsRefusedAndTheLastOneKept():
 
 @needsNone
 def testWithoutIpoptItIsRefusedWithTheRemedy():
-	geometry = Ig2_Polytope_Polytope_PolytopeGeom()
+	geometry = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012')
 	with pytest.raises(ValueError, match='solver: this build has no Ipopt.*coinor-libipopt-dev'):
 		geometry.solver = 'ipopt'
 	assert geometry.solver == 'newton'
 	with pytest.raises(ValueError, match='solver: this build has no Ipopt.*coinor-libipopt-dev'):
-		polytope.contact(polytope.cuboid((0, 0, 0), (1, 1, 1)), polytope.cuboid((0, 0, 1), (1, 1, 1)), solver='ipopt')
+		polytope.contact(polytope.cuboid((0, 0, 0), (1, 1, 1)), polytope.cuboid((0, 0, 1), (1, 1, 1)), solver='ipopt', contactModel='boon2012')

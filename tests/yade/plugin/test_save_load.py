@@ -73,7 +73,9 @@ def slidePerContact():
 
 def centroidHeap():
 	heap()
-	O.engines[2].geomDispatcher.functors[0].contactPoint = 'centroid'
+	geometry = O.engines[2].geomDispatcher.functors[0]
+	geometry.contactModel = 'boon2012'
+	geometry.contactPoint = 'centroid'
 
 def ipoptTower():
 	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
