@@ -43,8 +43,9 @@ polytope::ContactOptions Ig2_Polytope_Polytope_PolytopeGeom::checkedOptions() co
 	if (hasSurface(result.contactModel)) {
 		const auto refuseOther = [&](const std::string& attribute, const std::string& value, const std::string& byDefault) {
 			if (value != byDefault)
-				polytope::refuse(attribute + ": '" + value + "' is an option of contactModel='boon2012' alone, set that first; '"
-				        + contactModel + "' goes with " + attribute + "='" + byDefault + "'");
+				polytope::refuse(attribute + ": '" + value
+				        + "' is an option of contactModel='boon2012' alone, set that first; '" + contactModel
+				        + "' goes with " + attribute + "='" + byDefault + "'");
 		};
 		refuseOther("contactPoint", contactPoint, "analyticCentre");
 		refuseOther("solver", solver, "newton");

@@ -38,6 +38,7 @@ def engineFindings(scene):
 		erasedForces,
 		dampingOfShaken,
 		unitOfSurface,
+		pointWithoutArea,
 		recorders,
 		driven,
 		masks,
@@ -178,6 +179,17 @@ def unitOfSurface(scene):
 			wrong = isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) and wrongUnit(functor.contactModel, stiffnessesPerArea([loop]))
 			if wrong:
 				yield 'damping and energy', *wrong
+
+
+def pointWithoutArea(scene):
+	"""The largest ball between flush faces lies in a corner of them as well as anywhere, and the section through it has hardly any area."""
+	for loop in scene.loops:
+		for functor in loop.geomDispatcher.functors:
+			if not isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) or functor.contactPoint != 'chebyshevCentre':
+				continue
+			if stiffnessesPerArea([loop]):
+				seen = "contactPoint 'chebyshevCentre' with stiffnesses per area: of faces that lie flush the point may be a corner, where the area is almost none, and so is the stiffness"
+				yield 'contact point', seen, "contactPoint='analyticCentre', or stiffnessPerArea=False and stiffnesses in N/m"
 
 
 def recorders(scene):

@@ -34,7 +34,7 @@ def run(steps=None, until=None, every=100):
 	:param int steps: so many; with *until* the most to be taken
 	:param until: time (O.time) at which to end [s], in the first step that reaches it; or a function without arguments that returns
 	    whether to end. What holds already takes no step
-	:param int every: steps after which the function is asked
+	:param int every: steps after which the function is asked; each time costs up to 0.04 s, for YADE looks so seldom whether it is done
 	:returns: True; False if it ended before: after so many *steps* without *until* being reached, by O.pause(), or by O.stopAtTime
 	:raises ValueError: naming the argument, or what the scene lacks
 	:raises RuntimeError: if the scene is running already, if it is divided on several processes (MPI), or what an engine raises
@@ -68,25 +68,25 @@ def _untilTime(until, limit):
 
 
 def _untilTrue(until, limit, every, show):
-	end = O.iter + limit
+	end, size = O.iter + limit, [1]
 	while not until():
-		if O.iter >= end or not _steps(min(every, end - O.iter), show):
+		if O.iter >= end or not _steps(min(every, end - O.iter), show, size=size):
 			return bool(until())
 	return True
 
 
-def _steps(count, show, ended=lambda: False):
+def _steps(count, show, ended=lambda: False, size=None):
 	"""Runs this number of steps in parts, and tells *show* the number of each. Returns whether all were taken, or *ended()*: else an engine
-	has paused."""
-	end, size = O.iter + count, 1
+	has paused. *size*: a list of the number of steps in the next part, for further calls."""
+	end, size = O.iter + count, size or [1]
 	while O.iter < end and not ended():
-		first, start, now = O.iter, time.perf_counter(), int(min(size, end - O.iter))
+		first, start, now = O.iter, time.perf_counter(), int(min(size[0], end - O.iter))
 		O.run(now, wait=True)
 		show(O.iter - first)
 		if O.iter < first + now and not ended():
 			O.stopAtIter = 0  # the next O.run() would end there
 			return False
-		size = min(10 * size, max(1, int(now * heard / (time.perf_counter() - start))))
+		size[0] = min(10 * size[0], max(1, int(now * heard / (time.perf_counter() - start))))
 	return True
 
 

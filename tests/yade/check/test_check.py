@@ -183,6 +183,19 @@ def testSpringWithStiffnessPerArea():
 	assert not polytope.check(O)
 
 
+def testPointWithoutArea():
+	scene()
+	functor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012', contactPoint='chebyshevCentre')
+	loop().geomDispatcher.functors = [functor]
+	found = {one.what: one for one in polytope.check(O)}
+	assert "contactPoint='analyticCentre'" in found['contact point'].advice
+	functor.contactPoint = 'analyticCentre'
+	assert 'contact point' not in {one.what for one in polytope.check(O)}
+	functor.contactPoint = 'chebyshevCentre'
+	loop().physDispatcher.functors[0].stiffnessPerArea = False
+	assert 'contact point' not in {one.what for one in polytope.check(O)}
+
+
 def testNoDampingAtAllWithYadesMaterial():
 	"""The chord's spring gains energy. Damping anywhere, a rock joint or the contact model surface is the remedy."""
 	paper = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012')

@@ -4,12 +4,14 @@
 YADE's leapfrog has velocities half a step before positions: v(n−½). After steps of h the next one, of h', should add a (h + h')/2 to them, and adds a h'.
 """
 
+import itertools
 import math
 
+import numpy as np
 import pytest
 from scenes import blockOnFloor, density, joint, loop
 from test_contact_surface import gasOf
-from yade import O, Vector3, polytope
+from yade import Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O, Vector3, polytope
 
 stiffness = 1e9
 
@@ -100,3 +102,63 @@ def testChangesOfTheStepCostAGasNoMoreThanAConstantStepDoes(model):
 	print(f'{model}: error {changing:.1e}; with velocities corrected at changes {corrected:.1e}; with a constant step {constant:.1e}')
 	assert changing < 2 * constant
 	assert corrected > 0.3 * constant
+
+
+def polygonsInABox(seed):
+	"""30 regular polygons fall into a box, without friction and damping. Returns their weight [N]."""
+	O.reset()
+	random = np.random.default_rng(seed)
+	joint(normalStiffness=1e6, shearStiffness=5e5, frictionAngle=0, stiffnessPerArea=False)
+	for centre, half in (((0, -0.05), (0.6, 0.05)), ((-0.65, 1.5), (0.05, 1.5)), ((0.65, 1.5), (0.05, 1.5))):
+		(x, y), (a, b) = centre, half
+		corners = [(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b)]
+		O.bodies.append(polytope.polygon(corners, fixed=True, thickness=0.2))
+	for row, column in itertools.product(range(6), range(5)):
+		sides, turn = 3 + (row + column) % 4, random.uniform(0, 6)
+		angles = turn + 2 * np.pi * np.arange(sides) / sides
+		corners = [(0.22 * column - 0.45 + 0.1 * np.cos(one), 0.22 * row + 0.15 + 0.1 * np.sin(one)) for one in angles]
+		O.bodies.append(polytope.polygon(corners, thickness=0.2))
+	undamped = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0, shearDamping=0, rockingDamping=0)
+	O.engines = polytope.engines(damping=0, law=undamped)
+	return sum(body.state.mass for body in O.bodies if body.dynamic) * 9.81
+
+
+def errorOfFall(seed, corrected=False, step=None):
+	"""Largest error of the energy in 0.6 s over what the fall has set free; and the least time step."""
+	weight = polygonsInABox(seed)
+	if step:
+		O.engines = O.engines[:-1]
+		O.dt = step
+	moving = [body for body in O.bodies if body.dynamic]
+	height = sum(body.state.mass * body.state.pos[1] for body in moving)
+	start, last, worst, least = polytope.mechanicalEnergy(), O.dt, 0, O.dt
+	while O.time < 0.6:
+		O.step()
+		if corrected and O.dt != last:
+			for body in moving:
+				correct(body, O.dt - last)
+				body.state.vel = body.state.vel - Vector3(0, -9.81, 0) * (O.dt - last) / 2
+		last, least = O.dt, min(least, O.dt)
+		if O.iter % 20 == 0:
+			worst = max(worst, abs(polytope.mechanicalEnergy() - start))
+	fallen = height - sum(body.state.mass * body.state.pos[1] for body in moving)
+	assert fallen > 0.1 * weight / 9.81
+	return float(worst / (fallen * 9.81)), least
+
+
+def testChangesOfTheStepWhilePolygonsPileUp():
+	"""A pile has more contacts on a body than its first ones, so that the step becomes shorter while they are loaded."""
+	seeds = range(1, 6)
+	changing = [errorOfFall(seed) for seed in seeds]
+	usual = min(step for _, step in changing)
+	found = {
+		'PolytopeTimeStepper': [error for error, _ in changing],
+		'velocities corrected at each change': [errorOfFall(seed, corrected=True)[0] for seed in seeds],
+		'constant step, its least': [errorOfFall(seed, step=usual)[0] for seed in seeds],
+		'constant step, a quarter of that': [errorOfFall(seed, step=usual / 4)[0] for seed in seeds],
+	}
+	means = {name: sum(errors) / len(errors) for name, errors in found.items()}
+	for name, errors in found.items():
+		print(f'{name}: largest error {means[name]:.1e} in the mean, {max(errors):.1e} at most')
+	assert max(found['PolytopeTimeStepper']) < 0.03, 'with the default step'
+	assert means['constant step, a quarter of that'] < means['constant step, its least'] / 4 < means['PolytopeTimeStepper'] / 4
