@@ -10,7 +10,7 @@ from .extensions import derivedShapes, ownClosures
 from .falling import falling
 from .findings import Check, Finding
 from .lostStrengths import hanging, lostStrengths
-from .materials import defaultMaterial
+from .materials import changedMaterials, defaultMaterial
 from .pairs import pairFindings
 from .places import notNumbers, placeFindings
 from .scene import SceneToCheck
@@ -28,7 +28,8 @@ def check(O, costs=False):
 	laws that do not fit together, contact models whose unit of stiffness is another, contacts without any damping whose model does not
 	conserve energy, polygons that meet what they cannot touch, positions and velocities that are not numbers, polytopes in the same place
 	or deep in each other, boxes without thickness, facets without an area, engines that are there twice, controllers for spheres only,
-	YADE's density scaling, bodies that have YADE's default material in place of the scene's, bodies too large for a periodic cell, bonds
+	YADE's density scaling, bodies that have YADE's default material in place of the scene's,
+	contacts of materials that were changed since, bodies too large for a periodic cell, bonds
 	whose engine is missing, numerical damping beside a moving base or a quiet boundary, water that acts too late, density, mass and size of
 	bodies, friction angles in degrees, cohesion and tensile strength in MPa, dilation above friction, stiffnesses too low for the loads,
 	joints so soft that a block topples a degree below its own angle, faces on several pieces with a stiffness for each contact, gravity
@@ -74,6 +75,7 @@ def checkOf(O, engines):
 		*engineFindings(scene),
 		*pairFindings(scene),
 		*defaultMaterial(scene),
+		*changedMaterials(scene),
 		*bodyFindings(scene),
 		*derivedShapes(scene),
 		*ownClosures(scene),

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Checks of which material bodies have, of polytope.check(). Each yields (what, seen, advice)."""
 
-from yade import RockJointMat
+import math
 
-__all__ = ['defaultMaterial']
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, RockJointMat, RockJointPhys, _polytope
+
+from ..scene.present import isPerArea
+
+__all__ = ['changedMaterials', 'defaultMaterial']
 
 nameOfDefault = 'defaultMat'
 """Label of the material that YADE gives to bodies made before O.materials has any (yade.utils.defaultMaterial)."""
@@ -30,3 +34,49 @@ def defaultMaterial(scene):
 		seen,
 		'make the material first, O.materials.append(RockJointMat(…)), and bodies after it; or give them material=…',
 	)
+
+
+def changedMaterials(scene):
+	"""Contacts take their values from the materials when they are made: what is changed later holds for new contacts alone."""
+	makers = [f for loop in scene.loops for f in loop.physDispatcher.functors if isinstance(f, Ip2_RockJointMat_RockJointMat_RockJointPhys)]
+	if len(makers) != 1 or makers[0].kn or makers[0].ks or makers[0].frictAngle:
+		return
+	for contact in scene.O.interactions:
+		one, other = (scene.O.bodies[k] for k in (contact.id1, contact.id2))
+		if not contact.isReal or not isinstance(contact.phys, RockJointPhys) or contact.phys.bond or _ofFaces(one) or _ofFaces(other):
+			continue
+		wrong = next(_differences(contact.phys, (one.material, other.material), makers), None)
+		if wrong:
+			seen = f'the contact of body {contact.id1} and body {contact.id2} has another {wrong} than its materials, which were changed after it was made'
+			advice = 'O.interactions.clear() makes all contacts anew, without their shear forces; or set what changed in contact.phys, too'
+			yield 'material', seen, advice
+			return
+
+
+def _ofFaces(body):
+	return len(getattr(body.shape, 'faceMaterials', ())) > 0
+
+
+def _differences(phys, materials, makers):
+	"""What is not the same in a contact and its materials; of values that the law changes itself, none."""
+	ofMaterials = {isPerArea(material, makers) for material in materials}
+	ofContact = {True: phys.normalStiffness > 0, False: phys.normalStiffnessPerContact > 0}  # none: spheres
+	if len(ofMaterials) == 1 and any(ofContact.values()):
+		perArea = ofMaterials.pop()
+		if not ofContact[perArea]:
+			yield f"unit of its stiffness ({'N/m' if perArea else 'Pa/m'})"
+		for name in ('normalStiffness', 'shearStiffness') if ofContact[perArea] else ():
+			values = [getattr(material, name) for material in materials]
+			yield from _unlike(name, getattr(phys, name if perArea else name + 'PerContact'), _polytope.stiffnessInSeries(*values))
+	if any(material.strength for material in materials):
+		return
+	if phys.intact or phys.tangensOfResidualFrictionAngle < 0:
+		angle = min(float(material.frictionAngle) for material in materials)
+		yield from _unlike('coefficient of friction', phys.tangensOfFrictionAngle, math.tan(angle))
+	for name in ('cohesion', 'tensileStrength') if phys.intact else ():
+		yield from _unlike(name, getattr(phys, name), min(getattr(material, name) for material in materials))
+
+
+def _unlike(name, present, expected):
+	if not math.isclose(float(present), float(expected), rel_tol=1e-9, abs_tol=1e-12):
+		yield f'{name} ({float(present):.6g}, not {float(expected):.6g})'

@@ -183,6 +183,37 @@ def testSpringWithStiffnessPerArea():
 	assert not polytope.check(O)
 
 
+@pytest.mark.parametrize(
+	('name', 'value', 'seen'),
+	[
+		('frictionAngle', 0.1, 'coefficient of friction ('),
+		('normalStiffness', 3e8, 'normalStiffness ('),
+		('shearStiffness', 3e7, 'shearStiffness ('),
+		('stiffnessPerArea', False, 'unit of its stiffness (Pa/m)'),
+		('cohesion', 2e4, 'cohesion (10000, not 20000)'),
+	],
+)
+def testMaterialsThatWereChanged(name, value, seen):
+	scene(material=RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5, cohesion=1e4))
+	O.bodies[1].state.pos = (0, 0, 0.4999)
+	O.run(20, True)
+	assert any(contact.isReal for contact in O.interactions)
+	assert 'material' not in {one.what for one in polytope.check(O)}
+	setattr(O.materials[-1], name, value)
+	assert seen in {one.what: one.seen for one in polytope.check(O)}['material']
+	O.interactions.clear()
+	assert 'material' not in {one.what for one in polytope.check(O)}
+
+
+def testMaterialsOfAMatchMakerAndOfAFailedJointAreTheirOwn():
+	scene(material=RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5, residualFrictionAngle=0.4))
+	O.bodies[1].state.pos = (0, 0, 0.4999)
+	O.run(20, True)
+	next(contact for contact in O.interactions if contact.isReal).phys.tangensOfFrictionAngle = math.tan(0.4)
+	loop().physDispatcher.functors[0].frictAngle = yade.MatchMaker(algo='val', val=0.3)
+	assert 'material' not in {one.what for one in polytope.check(O)}
+
+
 def testPointWithoutArea():
 	scene()
 	functor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012', contactPoint='chebyshevCentre')
