@@ -240,7 +240,8 @@ def engineTable(title, found):
 		# ours first; the collider of the spheres is YADE's own
 		for (name, ours), (peer, spheres) in zip(each['ours'].items(), each['spheres'].items(), strict=True):
 			cost = [1e6 * statistics.fmean(times) / methods[method]['bodies'] for method, times in (('ours', ours), ('spheres', spheres))]
-			rows.append([number, name if name == peer else f'{name}, {peer}', *cost, cost[0] / cost[1]])
+			# a collider that had nothing to do took no time
+			rows.append([number, name if name == peer else f'{name}, {peer}', *cost, cost[0] / cost[1] if cost[1] else None])
 	return tabulate(rows, [title, 'engine', 'cubes, µs/body and step', 'spheres', 'ratio'], floatfmt='.3f')
 
 
