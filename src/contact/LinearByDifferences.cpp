@@ -32,6 +32,14 @@ namespace {
 		return std::min(first, second);
 	}
 
+	/// Of the surface, as its area over `radius`; of polygons, whose area is a length times a thickness, likewise.
+	Real widthOf(const PlacedPair& pair, const Real& area, const Real& radius)
+	{
+		if (pair.shape[0]->dimension() == 3) return area / radius;
+		const Real length = area / std::min(pair.shape[0]->thickness(), pair.shape[1]->thickness());
+		return length * length / radius;
+	}
+
 	bool isSound(const ContactResult& result)
 	{
 		return result.status == ContactStatus::Contact && result.inContact && result.hasGeometry;
@@ -55,10 +63,12 @@ void linearByDifferences(const PlacedPair& pair, const ContactSettings& settings
 	plain.bounding = nullptr;
 	plain.linear   = nullptr;
 
-	const Load load = loadOf(result, perArea, x, radius, result.share, one);
-	Real       slope[6][6];
-	const Real leftOut = Real(tolerance::linearLeftOut) * load.head<3>().norm() / result.share;
+	const Load load        = loadOf(result, perArea, x, radius, result.share, one);
+	Real       slope[6][6] = {};
+	const Real leftOut     = Real(tolerance::linearLeftOut) * load.head<3>().norm() / result.share;
+	const bool flat        = pair.shape[0]->dimension() == 2;
 	for (int j = 0; j < 6; ++j) {
+		if (flat && j >= 2 && j < 5) continue; // polygons move in their plane
 		Load there[2];
 		for (int side = 0; side < 2; ++side) {
 			const Vector3 way     = (side == 0 ? across : Real(-across)) * one.col(j % 3);
@@ -79,7 +89,7 @@ void linearByDifferences(const PlacedPair& pair, const ContactSettings& settings
 
 	std::array<Real, 6> present;
 	std::copy(load.data(), load.data() + 6, present.begin());
-	linear.keep(one, two, present, slope, -result.infeasibility, result.area, radius);
+	linear.keep(one, two, present, slope, -result.infeasibility, result.area, radius, widthOf(pair, result.area, radius));
 	linear.energy  = -1; // a part has none of its own: only that of all pieces together has the force as its gradient
 	linear.perArea = perArea;
 	linear.carrier = pair.shape[1]->boundingRadius() < pair.shape[0]->boundingRadius();

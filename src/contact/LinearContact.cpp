@@ -82,7 +82,7 @@ bool LinearContact::follow(const PlacedPair& pair, const ContactOptions& options
 }
 
 void LinearContact::keep(const Matrix3& first, const Matrix3& second, const std::array<Real, 6>& present, const Real (&derivative)[6][6],
-        const Real& depth, const Real& areaOfSurface, const Real& radiusOfSurface)
+        const Real& depth, const Real& areaOfSurface, const Real& radiusOfSurface, const Real& width)
 {
 	using std::abs;
 	unit = 0;
@@ -101,7 +101,7 @@ void LinearContact::keep(const Matrix3& first, const Matrix3& second, const std:
 	area   = areaOfSurface;
 	radius = radiusOfSurface;
 	across = tolerance::linearAcross * depth;
-	along  = std::max(across, Real(tolerance::linearAlong * area / radius));
+	along  = std::max(across, Real(tolerance::linearAlong * width));
 }
 
 void LinearContact::begin(const PlacedPair& pair, bool exchangedBodies, const ContactResult& result)

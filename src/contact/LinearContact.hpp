@@ -62,8 +62,9 @@ struct LinearContact {
 	/// \param present     `load`
 	/// \param derivative  of it by the motion, as `slope` has it: a column for each motion
 	/// \param depth       −s*
+	/// \param width       of the surface, over which the bodies may move along it
 	void keep(const Matrix3& first, const Matrix3& second, const std::array<Real, 6>& present, const Real (&derivative)[6][6],
-	        const Real& depth, const Real& areaOfSurface, const Real& radiusOfSurface);
+	        const Real& depth, const Real& areaOfSurface, const Real& radiusOfSurface, const Real& width);
 
 	/// After the query: the bodies' order, and the frame of the caller's contact.
 	void begin(const PlacedPair& pair, bool exchangedBodies, const ContactResult& result);

@@ -99,7 +99,8 @@ POLYTOPE_APART void keepLinear(
 		present[k]     = Real(force[k]);
 		present[3 + k] = Real(turning[k] / radius);
 	}
-	linear.keep(*q.in.rotation[0], *q.in.rotation[1], present, own, Real(surface.deepest), out.area, Real(radius));
+	linear.keep(
+	        *q.in.rotation[0], *q.in.rotation[1], present, own, Real(surface.deepest), out.area, Real(radius), out.area / Real(radius));
 	linear.energy  = surface.energy ? Real(load.energy) : Real(-1);
 	linear.perArea = !spring;
 	linear.carrier = f.home == 1;

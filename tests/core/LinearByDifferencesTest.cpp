@@ -15,8 +15,10 @@ constexpr ContactModel models[] = { ContactModel::Foundation, ContactModel::Spri
 /// The second body moved by `by` at x, and as far by its rotation at the distance `radius` from it.
 Pair moved(Pair pair, const Vector3& x, Real by, Real radius, std::mt19937_64& random)
 {
-	const Matrix3 turn = Eigen::AngleAxis<Real>(by / radius, randomDirection(random)).toRotationMatrix();
-	pair.centre2       = turn * (pair.centre2 - x) + x + by * randomDirection(random);
+	const bool    flat = pair.dimension() == 2;
+	const Real    way  = flat && random() % 2 ? Real(-by) : by;
+	const Matrix3 turn = Eigen::AngleAxis<Real>(way / radius, flat ? Vector3::UnitZ() : randomDirection(random)).toRotationMatrix();
+	pair.centre2       = turn * (pair.centre2 - x) + x + by * randomDirection(random, pair.dimension());
 	pair.rotation[1]   = turn * pair.rotation[1];
 	return pair;
 }
@@ -121,6 +123,52 @@ TEST(LinearByDifferences, FollowsAPartOfTheSurface)
 		}
 	EXPECT_GT(parts, 80);
 	EXPECT_GT(known, parts * 3 / 4);
+}
+
+/// Polygons of any thickness: faces, and corners on faces.
+TEST(LinearByDifferences, FollowsPolygons)
+{
+	std::mt19937_64 random(2032);
+	int             touching = 0, known = 0;
+	for (const ContactModel model : models)
+		for (int trial = 0; trial < 100; ++trial) {
+			ContactSettings settings;
+			settings.contactModel = model;
+			settings.energy       = false;
+			Pair       pair;
+			const Real depth = decades(random, -5, -3);
+			pair.shape[0]    = ConvexShape::shared(rectangle(1, Real(0.5)), 0, uniform(random, Real(0.1), 3));
+			pair.shape[1]    = ConvexShape::shared(rectangle(Real(0.3), Real(0.2)), 0, uniform(random, Real(0.1), 3));
+			// on a side, tilted by less and by more than the depth, or on a corner
+			const Real tilt  = trial % 2 ? Real(uniform(random, -2, 2) * depth) : uniform(random, Real(-0.7), Real(0.7));
+			pair.rotation[1] = Eigen::AngleAxis<Real>(tilt, Vector3::UnitZ()).toRotationMatrix();
+			pair.centre2     = Vector3(uniform(random, Real(-0.5), Real(0.5)), 1, 0);
+			moveTo(pair, Vector3::UnitY(), -depth / 2);
+			PairMemory          memory;
+			LinearContact       linear;
+			ContactWorkspace    workspace;
+			const ContactResult result = query(pair, settings, &memory);
+			if (!result.inContact) continue;
+			++touching;
+			linearByDifferences(pair.placed(), settings, memory, workspace, result, linear);
+			if (!linear.known) continue;
+			++known;
+			const Real size = ContactLoad(result, model).force.norm();
+			for (int motion = 0; motion < 8; ++motion) {
+				const Pair    there = moved(pair, result.point, linear.across / 3, linear.radius, random);
+				ContactResult followed;
+				OutlineMotion outline;
+				ASSERT_TRUE(linear.follow(there.placed(), settings, memory.point[0], memory.point[1], followed, outline));
+				EXPECT_EQ(followed.normal[2], 0);
+				EXPECT_NEAR(followed.turningArm, 0, 1e-12);
+				const ContactLoad one(followed, model), other(query(there, settings), model);
+				EXPECT_LE((one.force - other.force).norm(), tolerance::linearLeftOut * size);
+				EXPECT_LE((one.moment - other.moment - result.point.cross(one.force - other.force)).norm(),
+				        tolerance::linearLeftOut * size * linear.radius);
+			}
+		}
+	EXPECT_GT(touching, 150);
+	EXPECT_GT(known, touching * 3 / 4);
 }
 
 /// A pair that is apart, and a contact whose force is not linear over the differences.

@@ -17,13 +17,14 @@ bool FollowedContact::take(polytope::ContactResult& result)
 
 bool FollowedContact::isSlow(int steps, const MotionInStep& motion) const
 {
-	return polytope::LinearContact::isSlow(
-	        steps, -geom_.infeasibility, math::sqrt(geom_.contactArea), geom_.normal, motion.translation, motion.rotation);
+	const Real width = flat_ ? Real(geom_.contactArea / math::min(pair_.shape[0]->thickness(), pair_.shape[1]->thickness()))
+	                         : math::sqrt(geom_.contactArea);
+	return polytope::LinearContact::isSlow(steps, -geom_.infeasibility, width, geom_.normal, motion.translation, motion.rotation);
 }
 
 polytope::LinearContact* FollowedContact::begin(bool turn, const MotionInStep& motion)
 {
-	if (!may_ || !isSlow(polytope::tolerance::linearSteps, motion)) {
+	if (!may_ || (flat_ && !turn) || !isSlow(polytope::tolerance::linearSteps, motion)) {
 		geom_.linear.clear();
 		return nullptr;
 	}

@@ -15,8 +15,9 @@ struct MotionInStep {
 class FollowedContact {
 public:
 	FollowedContact(const polytope::PlacedPair& pair, const polytope::ContactOptions& options, bool wasReal, PolytopeGeom& geom)
-	        : pair_(pair), options_(options), geom_(geom), may_(hasSurface(options.contactModel) && wasReal && options.warmStart
-	                                                               && !geom.closure.get() && pair.shape[0]->dimension() == 3)
+	        : pair_(pair), options_(options), geom_(geom),
+	          may_(hasSurface(options.contactModel) && wasReal && options.warmStart && !geom.closure.get()),
+	          flat_(pair.shape[0]->dimension() == 2)
 	{
 	}
 
@@ -39,6 +40,7 @@ private:
 	const polytope::ContactOptions& options_;
 	PolytopeGeom&                   geom_;
 	bool                            may_;
+	bool                            flat_; ///< polygons, which have no derivative in closed form
 	bool                            byDifferences_ = false;
 };
 

@@ -73,6 +73,33 @@ def testAPileComesToRestWhereItDoesInFull(perArea):
 			assert (a - b).norm() < 1e-3 * forces[0][0].norm()
 
 
+def buildPolygons(warm, perArea):
+	"""Blocks of several thicknesses on a floor, each turned a little or put on its edge, and leaning on others."""
+	material(**({} if perArea else {'normalStiffness': 2e8, 'shearStiffness': 1e8, 'stiffnessPerArea': False}))
+	O.bodies.append(polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True, thickness=2))
+	for k in range(4):
+		half = 0.5 - 0.04 * k
+		corners = [(x * half + 0.07 * k, 0.25 + y * 0.25 + 0.4999 * k) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+		O.bodies.append(polytope.polygon(corners, thickness=0.3 + 0.4 * k))
+	O.bodies.append(polytope.polygon([(-0.95, 0.03), (-0.85, 0), (-0.51, 0.62), (-0.61, 0.65)], thickness=0.5))
+	engines(warm)
+
+
+@pytest.mark.parametrize('perArea', [True, False])
+def testPolygonsComeToRestWhereTheyDoInFull(perArea):
+	full, forces = ofRun(lambda warm: buildPolygons(warm, perArea), False, 2)
+	assert followed() == 0
+	linear, others = ofRun(lambda warm: buildPolygons(warm, perArea), True, 2)
+	functor().resetStats()
+	O.run(64, wait=True)
+	assert followed() > 0.7
+	depth = max(-contact.geom.infeasibility for contact in O.interactions if contact.isReal)
+	assert np.abs(linear - full).max() < 0.01 * depth
+	for one, other in zip(forces, others, strict=True):
+		for a, b in zip(one, other, strict=True):
+			assert (a - b).norm() < 1e-3 * forces[0][0].norm()
+
+
 def buildOverPieces(warm, perArea=True):
 	"""A block across the seams of six pieces of a floor, cut obliquely, and one on it that is off its middle."""
 	material(**({} if perArea else {'normalStiffness': 2e8, 'shearStiffness': 1e8}))
