@@ -12,7 +12,7 @@ __all__ = ['StateSample', 'hasSolver']
 def hasSolver(solver):
 	"""Whether this build has it; 'ipopt' is optional."""
 	try:
-		Ig2_Polytope_Polytope_PolytopeGeom(solver=solver)
+		Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012', solver=solver)
 	except ValueError:
 		return False
 	return True
