@@ -48,7 +48,7 @@ def changedMaterials(scene):
 		wrong = next(_differences(contact.phys, (one.material, other.material), makers), None)
 		if wrong:
 			seen = f'the contact of body {contact.id1} and body {contact.id2} has another {wrong} than its materials, which were changed after it was made'
-			advice = 'O.interactions.clear() makes all contacts anew, without their shear forces; or set what changed in contact.phys, too'
+			advice = 'O.interactions.clear() makes all contacts anew, without their shear forces; or set what changed in contact.phys, too (friction: polytope.frictionReduction.setFrictionAngle)'
 			yield 'material', seen, advice
 			return
 
