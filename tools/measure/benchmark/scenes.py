@@ -101,8 +101,8 @@ class Scenes:
 
 	@property
 	def untilAtRest(self):
-		"""Steps until a heap of some thousand cubes rests: after 8000 some contacts in ten still slide, after 17 000 all are followed
-		(the result's *linear*). Spheres rest earlier."""
+		"""Steps until a heap of some thousand cubes rests: after 8000 many contacts still slide, after 17 000 almost all are followed (the
+		result's *linear*). Spheres rest earlier."""
 		return 8000 if self.quick else 17000
 
 	def settledCubes(self):
