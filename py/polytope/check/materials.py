@@ -3,9 +3,9 @@
 
 import math
 
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, RockJointMat, RockJointPhys, _polytope
+from yade import RockJointMat, RockJointPhys, _polytope
 
-from ..scene.present import isPerArea
+from ..scene.present import isPerArea, jointMakers
 
 __all__ = ['changedMaterials', 'defaultMaterial']
 
@@ -38,7 +38,7 @@ def defaultMaterial(scene):
 
 def changedMaterials(scene):
 	"""Contacts take their values from the materials when they are made: what is changed later holds for new contacts alone."""
-	makers = [f for loop in scene.loops for f in loop.physDispatcher.functors if isinstance(f, Ip2_RockJointMat_RockJointMat_RockJointPhys)]
+	makers = jointMakers(scene.loops)
 	if len(makers) != 1 or makers[0].kn or makers[0].ks or makers[0].frictAngle:
 		return
 	for contact in scene.O.interactions:

@@ -53,6 +53,15 @@ def ofRun(build, warm, seconds):
 	return states(), [(contact.phys.normalForce, contact.phys.shearForce) for contact in O.interactions if contact.isReal]
 
 
+def assertSameRest(full, forces, linear, others):
+	"""States and forces of two runs, of which the latter is that in O."""
+	depth = max(-contact.geom.infeasibility for contact in O.interactions if contact.isReal)
+	assert np.abs(linear - full).max() < 0.01 * depth
+	for one, other in zip(forces, others, strict=True):
+		for a, b in zip(one, other, strict=True):
+			assert (a - b).norm() < 1e-3 * forces[0][0].norm()
+
+
 @pytest.mark.parametrize('perArea', [True, False])
 def testAPileComesToRestWhereItDoesInFull(perArea):
 	def build(warm):
@@ -66,11 +75,7 @@ def testAPileComesToRestWhereItDoesInFull(perArea):
 	assert followed() == 0
 	linear, others = ofRun(build, True, 1.5)
 	assert followed() > 0.3
-	depth = max(-contact.geom.infeasibility for contact in O.interactions if contact.isReal)
-	assert np.abs(linear - full).max() < 0.01 * depth
-	for one, other in zip(forces, others, strict=True):
-		for a, b in zip(one, other, strict=True):
-			assert (a - b).norm() < 1e-3 * forces[0][0].norm()
+	assertSameRest(full, forces, linear, others)
 
 
 def buildPolygons(warm, perArea):
@@ -93,11 +98,7 @@ def testPolygonsComeToRestWhereTheyDoInFull(perArea):
 	functor().resetStats()
 	O.run(64, wait=True)
 	assert followed() > 0.7
-	depth = max(-contact.geom.infeasibility for contact in O.interactions if contact.isReal)
-	assert np.abs(linear - full).max() < 0.01 * depth
-	for one, other in zip(forces, others, strict=True):
-		for a, b in zip(one, other, strict=True):
-			assert (a - b).norm() < 1e-3 * forces[0][0].norm()
+	assertSameRest(full, forces, linear, others)
 
 
 def buildOverPieces(warm, perArea=True):
