@@ -34,7 +34,7 @@ benchmark() {
 		step "building the benchmark" "All messages of the compiler are in the log." ninja -C "$programs" polytope_benchmark
 		# one that cannot be built is named in the results; each compiler process takes up to 3 GB
 		case " $* " in
-			*" --only kernels "* | *" --only=kernels "* | *" --only threads "* | *" --only=threads "* | *" --only shapes "* | *" --only=shapes "* | \
+			*" --beside"* | *" --only kernels "* | *" --only=kernels "* | *" --only threads "* | *" --only=threads "* | *" --only shapes "* | *" --only=shapes "* | \
 				*" --only results "* | *" --only=results "* | *" --only sizes "* | *" --only=sizes "* | *" --only scale "* | *" --only=scale "*) ;;
 			*) (step "building YADE's PotentialBlock and Polyhedra" "The benchmark goes on without." ninja -j 2 -k 0 -C "$programs" yadePeers) || true ;;
 		esac

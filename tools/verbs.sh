@@ -30,7 +30,7 @@ optionsOf() { # VERB
 			;;
 		paper | accuracy) echo --quick --only --fresh --output --jobs ;;
 		tradeoff) echo --quick --only --output ;;
-		bench) echo --quick --only --output --large ;;
+		bench) echo --quick --only --output --large --beside ;;
 		fuzz) echo --seconds --target --seed --dry-run ;;
 		sanitize) echo --only --dry-run ;;
 		search) echo --quick --pairs --seed --threads --family --trial --log ;;

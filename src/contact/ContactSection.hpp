@@ -124,7 +124,7 @@ POLYTOPE_INLINE void contactSection(
 	const ContactFrame<R, D>& f       = q.frame;
 	const Section<R, D>       section = clipPlane(planes, origin, n, 2 * f.size, buffer);
 	q.out.area                        = section.area;
-	if (D == 2) q.out.area *= minOf<R>(q.in.shape[0]->thickness(), q.in.shape[1]->thickness());
+	if (D == 2) q.out.area *= R(q.in.thickness());
 	q.out.sectionCentroid = worldPoint<R, D>(q.in, f, toBody<R, D>(f, f.home, section.centroid));
 	if constexpr (D == 3) {
 		if (!q.settings.outline) return;

@@ -36,7 +36,7 @@ namespace {
 	Real widthOf(const PlacedPair& pair, const Real& area, const Real& radius)
 	{
 		if (pair.shape[0]->dimension() == 3) return area / radius;
-		const Real length = area / std::min(pair.shape[0]->thickness(), pair.shape[1]->thickness());
+		const Real length = area / pair.thickness();
 		return length * length / radius;
 	}
 

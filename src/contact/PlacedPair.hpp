@@ -17,6 +17,12 @@ struct PlacedPair {
 	        : shape { &shape1, &shape2 }, rotation { &rotation1, &rotation2 }, centre2(&centre2_)
 	{
 	}
+	/// Of what two polygons share: the thinner one's [m].
+	Real thickness() const
+	{
+		const Real one = shape[0]->thickness(), two = shape[1]->thickness();
+		return one < two ? one : two;
+	}
 	/// The bodies exchanged; `centre1`: from body 2's centre to body 1's.
 	PlacedPair exchanged(const Vector3& centre1) const { return { *shape[1], *rotation[1], *shape[0], *rotation[0], centre1 }; }
 };

@@ -198,7 +198,7 @@ POLYTOPE_INLINE void publishLoad(
 	out.energy
 	        = !surface.energy ? R(-1) : (perArea ? load.energy * onPiece / area : load.energy) / (stiffening > 0 ? stiffening : R(1));
 	if (surface.on && !parted) area = 0;
-	out.area = D == 2 ? area * minOf<R>(q.in.shape[0]->thickness(), q.in.shape[1]->thickness()) : area;
+	out.area = D == 2 ? area * R(q.in.thickness()) : area;
 }
 
 /// The outline over which friction acts: in the plane in which the contact surface of two faces lies.

@@ -39,6 +39,7 @@ def testKnownArgumentsPass(clone, tmp_path):
 	lines = [
 		'accuracy --quick --only pairs scenes --output x --jobs 2',
 		'bench --only=kernels --output=x',
+		'bench --quick --beside ../other',
 		'paper --only ACF',
 		'demo --seed -1 --shape cube',
 		'test --fast -k one --ff -x --pdb',

@@ -17,8 +17,7 @@ bool FollowedContact::take(polytope::ContactResult& result)
 
 bool FollowedContact::isSlow(int steps, const MotionInStep& motion) const
 {
-	const Real width = flat_ ? Real(geom_.contactArea / math::min(pair_.shape[0]->thickness(), pair_.shape[1]->thickness()))
-	                         : math::sqrt(geom_.contactArea);
+	const Real width = flat_ ? Real(geom_.contactArea / pair_.thickness()) : math::sqrt(geom_.contactArea);
 	return polytope::LinearContact::isSlow(steps, -geom_.infeasibility, width, geom_.normal, motion.translation, motion.rotation);
 }
 

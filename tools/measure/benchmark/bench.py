@@ -20,6 +20,7 @@ import statistics
 import subprocess
 import sys
 
+import beside
 import kernels
 import memory
 import plots
@@ -50,11 +51,26 @@ def arguments():
 	parser.add_argument('--quick', action='store_true', help='smaller heaps, fewer pairs and repetitions: some minutes')
 	parser.add_argument('--large', action='store_true', help='settled heaps of 100 000 bodies, and a million bodies, as well: some hours')
 	parser.add_argument('--only', choices=groups, help='one group of measurements alone')
-	parser.add_argument('--output', metavar='DIR', help='where results and pictures go (default: output/bench, -quick, -GROUP)')
+	parser.add_argument(
+		'--beside',
+		metavar='FOLDER',
+		type=pathlib.Path,
+		help='only whole steps of settled heaps and of a slope, beside another checkout that is built: an hour',
+	)
+	parser.add_argument('--output', metavar='DIR', help='where results and pictures go (default: output/bench, -quick, -GROUP, -beside)')
 	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # ./run's: only check the options
 	parser.add_argument('--programs', required=True, help=argparse.SUPPRESS)  # ./run gives it: folder of what was built
 	options = parser.parse_args()
-	options.output = options.output or 'output/bench' + '-quick' * options.quick + (f'-{options.only}' if options.only else '')
+	group = 'beside' if options.beside else options.only
+	options.output = options.output or 'output/bench' + '-quick' * options.quick + (f'-{group}' if group else '')
+	if options.beside:
+		if options.only:
+			parser.error('--beside measures a group of its own: leave out --only')
+		options.beside = options.beside.resolve()
+		try:
+			beside.overlayOf(options.beside)
+		except ValueError as error:
+			parser.error(str(error))
 	try:
 		pathlib.Path(options.output).mkdir(parents=True, exist_ok=True)
 	except OSError as error:
@@ -62,17 +78,20 @@ def arguments():
 	return options
 
 
+def output(*command):
+	result = subprocess.run(command, capture_output=True, text=True)
+	return result.stdout.strip() if result.returncode == 0 else ''
+
+
+def gitOf(checkout):
+	return ('git', '-c', f'safe.directory={checkout}', '-C', str(checkout))
+
+
 def machine(programs):
 	"""Machine, compiler and revision that the results belong to."""
-	project = here.parents[2]
-
-	def output(*command):
-		result = subprocess.run(command, capture_output=True, text=True)
-		return result.stdout.strip() if result.returncode == 0 else ''
-
 	with open('/proc/cpuinfo') as file:
 		models = [line.split(':', 1)[1].strip() for line in file if line.startswith('model name')]
-	git = ('git', '-c', f'safe.directory={project}', '-C', str(project))
+	git = gitOf(here.parents[2])
 	built = pathlib.Path(programs).parents[2]
 	with open(built / 'compile_commands.json') as file:
 		flags = [
@@ -214,9 +233,11 @@ def showExtras(run):
 	costs = {name: 1e6 * scenes.meanStep(one) for name, one in found.items()}
 	without = costs['nothing']
 	run.results['features'] = {'bodies': found['nothing']['bodies'], 'microseconds': costs}
-	rows = [[name, found[name]['pairs'], cost, cost - without, 100 * (cost / without - 1)] for name, cost in costs.items()]
-	head = [f"asked for ({found['nothing']['bodies']} settled cubes)", 'pairs', 'µs/step', 'more', '%']
-	run.say(tabulate(rows, head, floatfmt=('', '', '.0f', '+.0f', '+.1f')) + '\n')
+	rows = [
+		[name, found[name]['pairs'], found[name]['linear'], cost, cost - without, 100 * (cost / without - 1)] for name, cost in costs.items()
+	]
+	head = [f"asked for ({found['nothing']['bodies']} settled cubes)", 'pairs', 'followed', 'µs/step', 'more', '%']
+	run.say(tabulate(rows, head, floatfmt=('', '', '.2f', '.0f', '+.0f', '+.1f')) + '\n')
 
 
 def sizeGroup(run):
@@ -278,12 +299,24 @@ def threadGroup(run):
 	return targets.threadRows(found)
 
 
+def besideGroup(run):
+	found = beside.measure(run.beside, run.core, run.quick)
+	revision = output(*gitOf(run.beside), 'rev-parse', 'HEAD')[:8]
+	run.results['beside'] = {'revision': revision, 'scenes': found}
+	rows = [
+		[name, both['other']['perBody'], both['ours']['perBody'], both['other']['contacts'], both['ours']['contacts']] for name, both in found
+	]
+	head = ['µs a body and step', revision, 'this revision', 'contacts there', 'here']
+	run.say(tabulate(rows, head, floatfmt=('', '.3f', '.3f', '.0f', '.0f')) + '\n')
+	return targets.besideRows(found, revision)
+
+
 class Run:
 	"""State of one run: options, messages, results."""
 
 	def __init__(self, options):
 		self.programs, self.quick, self.large, self.core = options.programs, options.quick, options.large, os.cpu_count() - 1
-		self.output = pathlib.Path(options.output).resolve()
+		self.output, self.beside = pathlib.Path(options.output).resolve(), options.beside
 		for name in outputs:  # of an earlier run, which may have measured more
 			(self.output / name).unlink(missing_ok=True)
 		self.text, self.notes = [], []
@@ -313,10 +346,10 @@ def main():
 			f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times are unsure, ratios noisy.'
 		)
 	rows, measured, interrupted = [], [], False
-	for name, group in zip(
-		groups, (kernelGroup, shapeGroup, resultGroup, sceneGroup, sizeGroup, scaleGroup, growthGroup, threadGroup), strict=True
-	):
-		if options.only in (None, name):
+	everyGroup = (kernelGroup, shapeGroup, resultGroup, sceneGroup, sizeGroup, scaleGroup, growthGroup, threadGroup)
+	chosen = [('beside', besideGroup)] if options.beside else zip(groups, everyGroup, strict=True)
+	for name, group in chosen:
+		if options.beside or options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			try:
 				rows += [dict(group=name, **dataclasses.asdict(row)) for row in group(run)]

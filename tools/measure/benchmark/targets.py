@@ -162,6 +162,10 @@ def sizeRows(settled, loaded):
 	return rows
 
 
+def besideRows(found, revision):
+	return [reported(f'whole step, {name}', revision, both['ours']['perBody'], both['other']['perBody']) for name, both in found]
+
+
 def perBody(methods):
 	"""Ours and the spheres' [µs]."""
 	return [1e6 * median(methods[key]['perBody']) for key in ('ours', 'spheres')]

@@ -22,7 +22,7 @@ ofScenes = (
 	'checkpoint',
 )
 ofBodies = ('body of', 'jointedRock')
-order = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'scale', 'growth', 'threads')
+order = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'scale', 'growth', 'threads', 'beside')
 """Order of the groups of `./run bench`."""
 
 
@@ -145,8 +145,12 @@ def isBody(measure):
 	return measure.startswith(ofBodies)
 
 
+def isBeside(measure):
+	return measure.startswith('whole step')
+
+
 def isPair(measure):
-	return not isScene(measure) and not isBody(measure)
+	return not isScene(measure) and not isBody(measure) and not isBeside(measure)
 
 
 def verdict(folder):
@@ -206,6 +210,7 @@ figures = {
 	'bench.scenes': targets(isScene),
 	'bench.pairs': targets(isPair),
 	'bench.bodies': targets(isBody),
+	'bench.beside': targets(isBeside),
 	'bench.energy': energyCost,
 	'bench.features': features,
 	'bench.polyhedra': faster('Polyhedra'),
