@@ -33,7 +33,7 @@ struct GaussLegendre {
 		return rule;
 	}
 	/// The rule with the fewest points that is exact to rounding on a line whose distance from the centre of rotation is so many times its length.
-	static const GaussLegendre& seenFrom(Real lengths)
+	static const GaussLegendre& seenFrom(const Real& lengths)
 	{
 		return lengths > Real(tolerance::shearTwoPoints) ? two() : lengths > Real(tolerance::shearThreePoints) ? three() : five();
 	}

@@ -200,8 +200,9 @@ namespace {
 				        = lengthSquared * Real(tolerance::shearShort * tolerance::shearShort) < farSquared ? given : none,
 				        isLong = given - isShort;
 				if (horizontalMax<Real, width>(isShort) > 0) {
-					const V     ratio = isShort > none ? V(farSquared / lengthSquared) : V(one * Real(padOffset));
-					const auto& rule  = GaussLegendre::seenFrom(sqrt(horizontalMin<Real, width>(ratio)));
+					const V     ratio   = isShort > none ? V(farSquared / lengthSquared) : V(one * Real(padOffset));
+					const Real  lengths = sqrt(horizontalMin<Real, width>(ratio));
+					const auto& rule    = GaussLegendre::seenFrom(lengths);
 					const V     rise = gradient[0] * way[0] + gradient[1] * way[1], own = isShort > none ? share : none;
 					for (int j = 0; j < rule.points; ++j) {
 						const Real at = rule.place[j];
