@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Core and plug-in compile for a YADE whose numbers are a class, as those of float128 and MPFR are. Only `./run tradeoff` builds these; long double, which the
+tests build, is a type of C++ itself, and forgives more. The compiler only reads here: it makes no code, which would take half an hour."""
+
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+
+import pytest
+
+if 'buildKey' not in os.environ:
+	pytest.skip('not started by ./run', allow_module_level=True)
+
+project = pathlib.Path(__file__).resolve().parents[3]
+cache = (pathlib.Path(os.environ['YADE_PREFIX']).parent / 'CMakeCache.txt').read_text()
+sources = re.search(r'^YADE_SOURCE_DIR:PATH=(.*)$', cache, re.MULTILINE)[1]
+
+
+def messagesOf(entry):
+	"""What the compiler says of one file, with all warnings that a build takes as errors."""
+	command = shlex.split(entry['command'])
+	command = command[next(k for k, word in enumerate(command) if not word.endswith('ccache')) :]
+	at = command.index('-o')
+	command = [word for word in command[:at] + command[at + 2 :] if word != '-c']
+	done = subprocess.run([*command, '-fsyntax-only'], cwd=entry['directory'], capture_output=True, text=True)
+	return '' if done.returncode == 0 else f'{entry["file"]}\n{done.stderr}'
+
+
+def testCompilesForFloat128(tmp_path):
+	options = ['-DPOLYTOPE_YADE=ON', '-DPOLYTOPE_PRECISION=float128', '-DPOLYTOPE_TESTS=OFF', f'-DYADE_SOURCE_DIR={sources}']
+	configured = subprocess.run(['cmake', '-S', project, '-B', tmp_path, '-G', 'Ninja', *options], capture_output=True, text=True)
+	assert configured.returncode == 0, configured.stderr
+	entries = json.loads((tmp_path / 'compile_commands.json').read_text())
+	assert len([entry for entry in entries if '/src/' in entry['file']]) > 30 and any('/pkg/' in entry['command'] for entry in entries)
+	with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as threads:
+		messages = [said for said in threads.map(messagesOf, entries) if said]
+	assert not messages, '\n'.join(messages)
