@@ -5,7 +5,7 @@ import dataclasses
 
 import numpy as np
 from tqdm import tqdm
-from yade import O, RockJointMat
+from yade import O, Quaternion, RockJointMat
 
 from ..arguments import namedArguments, number, warn
 from ..bonding.bolting import madeBolts
@@ -14,6 +14,7 @@ from ..pictures.films import filmEngines
 from ..rest.scaledMasses import scaledMassesIfPossible
 from ..rest.unbalanced import unbalancedForce
 from ..rest.unrest import Unrest
+from ..rest.ways import posesOf, waysOf
 from ..scene.movers import canMove
 from ..scene.namedBodies import namedBodies
 from ..scene.permanentLoads import givePermanentLoads, permanentLoads
@@ -34,6 +35,9 @@ atRest, loosest = 0.05, 1e-3
 strength is too small, so this is far below it; and the largest such force, whatever the tolerance."""
 still = 1e-3
 """Way of a body in these looks, over that which counts as failure, below which it stands: what swings slowly has no unbalanced force for a moment."""
+unturned = 1e-5
+"""Way by its turn in these looks, over that which counts as failure, below which it stands: a body that spins lacks a moment, which no unbalanced force tells;
+with a hundredth more of it than its joints bear it turns by more."""
 between, looks = 50, 3
 """Steps between two looks, and looks in a row at which all must be at rest."""
 damping = 0.4
@@ -57,7 +61,7 @@ class Trial:
 	unbalanced: float
 	"""Force at the end [-]."""
 	displacement: float
-	"""Way of the body that has moved farthest for its size, since the first state that stood: with the scene's own strengths, or with
+	"""Way of the body that has moved or turned farthest for its size (rest/ways.py), since the first state that stood: with the scene's own strengths, or with
 	*most* times them where the factor is below 1 [m]."""
 	trembling: list = dataclasses.field(default_factory=list)
 	"""Ids of bodies whose force does not fade though they stay where they are (*unrest*): 'stable' all the same."""
@@ -80,7 +84,7 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	trial by trial. A trial begins at the last state that stood: strengths are only ever lowered from there, so its forces are in
 	equilibrium, and no joint bore more than its strength on the way, as if rock weathered. It is stable when no body has an unbalanced
 	force above a twentieth of the tolerance (0.001 at most) and none moves, or only such as tremble in place for good. It has failed when a
-	body has moved by a fiftieth of its size since the scene stood with its own strengths, or in this trial by a quarter of that faster and
+	body has moved by a fiftieth of its size since the scene stood with its own strengths, or turned by 0.04 rad, or in this trial by a quarter of that faster and
 	faster, with nothing ahead that could stop it and no bolt or bond that holds it. A body that moves and comes to rest before is stable.
 	Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a time. Then
 	the scene is what it was, time and joints included. Bodies, contacts and engines are new Python objects, as after O.loadTmp: hold ids.
@@ -154,7 +158,7 @@ class _Search:
 		"""Permanent loads, with those that scaled masses come with."""
 		self.masses = scaled and scaled[1]
 		"""True masses by id, where those of the scene are scaled."""
-		self.limits = np.array([partOfSize * sizeOf(k) for k in watched])
+		self.sizes = np.array([sizeOf(k) for k in watched])
 		self.trials, self.mode = [], None
 		# what bears only after some motion: slack bolts, joints whose roughness slip mobilises
 		self.gently = any(float(bolt.pretension) == 0 for bolt in madeBolts()) or any(
@@ -191,7 +195,7 @@ class _Search:
 		"""Begins with the scene's own strengths; where the scene fails with these, with strengths so large that it stands, from the same state."""
 		bracket = Bracket(self.tolerance, most)
 		self.settled = unbalancedForce(self.watched) < self.bound
-		self.origin = self._places()
+		self.origin = posesOf(self.watched)
 		O.saveTmp(standing, quiet=True)
 		own = self._trial(1.0)
 		if own.outcome != 'stable':
@@ -202,10 +206,10 @@ class _Search:
 			divideStrengths(bracket.stable, self.reduce)
 			if self._trial(bracket.stable).outcome != 'stable':
 				raise RuntimeError(
-					f'the scene does not stand with its own strengths ({own.outcome}, unbalanced force {own.unbalanced:.2g} after {own.steps} steps; {told(*self.mode[:2])}), '
+					f'the scene does not stand with its own strengths ({own.outcome}, unbalanced force {own.unbalanced:.2g} after {own.steps} steps; {told(*self.mode)}), '
 					f'nor with {most:g} times {", ".join(self.reduce)}; polytope.settle() first, a support, or more of the other strengths'
 				)
-		self.origin = self._places()
+		self.origin = posesOf(self.watched)
 		return bracket
 
 	def _refuseUnsettled(self, bracket):
@@ -245,7 +249,7 @@ class _Search:
 			engine.dead = True  # what happens in a trial is none of the scene's history
 		self.quiet = 0
 		trial = Trial(factor, 'creeping', 0, 0.0, 0.0)
-		motion, unrest = Motion(self.watched, self.limits), Unrest(self.bound, self.watched, self.masses)
+		motion, unrest = Motion(self.watched, self.sizes), Unrest(self.bound, self.watched, self.masses)
 		self.trials.append(trial)
 		while trial.steps < self.steps and trial.outcome == 'creeping':
 			for _ in range(between):
@@ -269,7 +273,7 @@ class _Search:
 		if not parts.max() <= 1 or motion.runsAway():  # not a number counts as failed
 			return 'failed'
 		self.quiet = self.quiet + 1 if trial.unbalanced < self.bound else 0
-		stands = self.quiet >= looks and motion.way(looks) < still and not motion.speedsUp()
+		stands = self.quiet >= looks and motion.way(looks) < still and motion.turn(looks) < unturned and not motion.speedsUp()
 		trial.trembling = [] if stands else _trembling(unrest)
 		return 'stable' if stands or trial.trembling else 'creeping'
 
@@ -279,20 +283,17 @@ class _Search:
 		self.bar.total = sum(steps[:-1]) + self.left * max(steps)
 		self.bar.set_postfix_str(f'strengths over {factor:.4g}', refresh=False)
 		self.bar.update(between)
-		return self._ways() / self.limits
-
-	def _places(self):
-		return np.array([tuple(O.bodies[k].state.pos) for k in self.watched], float), [O.bodies[k].state.ori for k in self.watched]
+		return self._ways() / (partOfSize * self.sizes)
 
 	def _ways(self):
-		return np.linalg.norm(self._places()[0] - self.origin[0], axis=1)
+		return waysOf(self.origin, posesOf(self.watched), self.sizes)
 
 	def _motion(self):
 		"""(ids, displacements, rotations) of the bodies that have moved, the farthest first."""
 		ways = self._ways()
 		order = inMode(ways)
-		moved = (self._places()[0] - self.origin[0])[order]
-		turned = [_rotation(self.origin[1][k].conjugate(), O.bodies[self.watched[k]].state.ori) for k in order]
+		moved = (posesOf(self.watched).places - self.origin.places)[order]
+		turned = [_rotation(self.origin.orientations[k], O.bodies[self.watched[k]].state.ori) for k in order]
 		return [self.watched[k] for k in order], moved, np.array(turned)
 
 
@@ -302,7 +303,8 @@ def _trembling(unrest):
 	return [one.id for one in lost] if all(one.kind == 'trembles' for one in lost) else []
 
 
-def _rotation(back, now):
-	axis, angle = (now * back).toAxisAngle()[:2]
+def _rotation(before, now):
+	x, y, z, w = before
+	axis, angle = (now * Quaternion(w, x, y, z).conjugate()).toAxisAngle()[:2]
 	angle = float(angle)
 	return np.array(axis, float) * (angle - 2 * np.pi if angle > np.pi else angle)

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..pictures.still import picture
 from ..scene.movers import moverOf
+from ..scene.stages import sizeOf
 
 __all__ = ['Failure', 'inMode', 'noMode', 'partOfMode', 'told']
 
@@ -37,8 +38,9 @@ class Failure:
 
 	@property
 	def directions(self):
-		"""(n, 3) unit vectors of the displacements"""
-		return self.displacements / np.linalg.norm(self.displacements, axis=1, keepdims=True)
+		"""(n, 3) unit vectors of the displacements; zero of a body that only turns"""
+		lengths = np.linalg.norm(self.displacements, axis=1, keepdims=True)
+		return np.divide(self.displacements, lengths, out=np.zeros_like(self.displacements), where=lengths > 0)
 
 	def picture(self, path, **arguments):
 		"""The scene as it is, bodies coloured by how far they moved when it failed. *arguments* are those of *polytope.picture*."""
@@ -56,7 +58,7 @@ class Failure:
 	def __str__(self):
 		if np.isinf(self.failed):
 			return f'factor of safety infinite: it stands with strengths divided by {self.stable:g}, so it fails by no lack of them (or at a larger number; *most*)'
-		return f'factor of safety {self.factor:.4g} (stands at {self.stable:.4g}, fails at {self.failed:.4g}): {told(self.bodies, self.displacements)}'
+		return f'factor of safety {self.factor:.4g} (stands at {self.stable:.4g}, fails at {self.failed:.4g}): {told(self.bodies, self.displacements, self.rotations)}'
 
 
 def inMode(ways):
@@ -69,10 +71,18 @@ def noMode():
 	return [], np.empty((0, 3)), np.empty((0, 3))
 
 
-def told(bodies, displacements):
+def told(bodies, displacements, rotations):
 	"""The first ones, for a message."""
-	modes = '; '.join(
-		f'body {k} by {np.linalg.norm(way):.2g} m towards ({", ".join(f"{x:.2f}" for x in way / np.linalg.norm(way))})'
-		for k, way in list(zip(bodies, displacements, strict=True))[:3]
-	)
+	modes = '; '.join(_toldOne(*one) for one in list(zip(bodies, displacements, rotations, strict=True))[:3])
 	return modes + (f' and {len(bodies) - 3} more' if len(bodies) > 3 else '')
+
+
+def _toldOne(k, way, turn):
+	length, angle = np.linalg.norm(way), np.linalg.norm(turn)
+	if angle * sizeOf(k) / 2 > length:
+		return f'body {k} turns by {np.degrees(angle):.2g}° about {_direction(turn)}'
+	return f'body {k} by {length:.2g} m towards {_direction(way)}'
+
+
+def _direction(vector):
+	return f'({", ".join(f"{x:.2f}" for x in vector / np.linalg.norm(vector))})'

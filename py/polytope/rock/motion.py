@@ -8,7 +8,9 @@ from ..measures.arrays import arrays
 from ..rest.holding import areJoined
 from ..rest.unbalanced import resultants
 from ..rest.unrest import placesById
+from ..rest.ways import posesOf, turnsOf, waysOf
 from ..scene.movers import partsOf
+from ..scene.stages import partOfSize
 
 __all__ = ['Motion']
 
@@ -38,13 +40,18 @@ class Motion:
 	is an estimate.
 
 	:param watched: ids of the bodies
-	:param limits: way of each that counts as failure [m]
+	:param sizes: of each [m]
 	"""
 
-	def __init__(self, watched, limits):
-		self.watched, self.limits = np.array(watched), limits
-		self.parts = [np.zeros(len(limits))]
-		"""Way of each body over its limit at each look, from the start on."""
+	def __init__(self, watched, sizes):
+		self.watched, self.sizes = np.array(watched), sizes
+		self.limits = partOfSize * sizes
+		"""Way of each that counts as failure [m]."""
+		self.parts = [np.zeros(len(sizes))]
+		"""Way of each body, or by its turn (rest/ways.py), over its limit at each look, from the start on."""
+		self.poses = self.last = posesOf(self.watched)
+		self.turned = []
+		"""Way of each body by its turn from look to look, over its limit."""
 		self.forces, self.looks = np.zeros((len(O.bodies), 3)), 0
 		"""Sum of the resultant forces of all bodies over the looks that count [N], and their number."""
 		self.taken, self.time = 0.0, O.time
@@ -55,7 +62,9 @@ class Motion:
 		is not stopped by them; and those that touched at a look, with its number."""
 
 	def look(self):
-		self.parts.append(np.linalg.norm((placesById() - self.began)[self.watched], axis=1) / self.limits)
+		before, self.last = self.last, posesOf(self.watched)
+		self.parts.append(waysOf(self.poses, self.last, self.sizes) / self.limits)
+		self.turned.append(turnsOf(before, self.last, self.sizes) / self.limits)
 		if len(self.parts) > 2 * self.since[0]:
 			self.touched, self.since = self.touched | self.since[1], (len(self.parts), _touching())
 		if self.parts[-1].max() < early:
@@ -65,6 +74,10 @@ class Motion:
 	def way(self, looks):
 		"""Largest way in the last looks, over its limit."""
 		return float(np.abs(self.parts[-1] - self.parts[max(0, len(self.parts) - looks)]).max())
+
+	def turn(self, looks):
+		"""Largest sum of ways by turning in the last looks, over its limit."""
+		return float(np.sum(self.turned[-looks:], axis=0).max())
 
 	def speedsUp(self):
 		"""Whether a body has moved faster and faster all the while: its joints lack little of what would hold it, less than what counts as
@@ -94,9 +107,12 @@ class Motion:
 
 	def _isStopped(self, k):
 		"""Whether body k meets another one, which it has not touched for long and which does not move with it; or it may be: a bolt or a
-		bond joins it, or what moves with it, and may pull more the farther it goes. A bolt across a joint pulls not at all at first."""
+		bond joins it, or what moves with it, and may pull more the farther it goes. A bolt across a joint pulls not at all at first. Of a body
+		that turns more than it moves, it is not looked what is ahead."""
 		way = (placesById() - self.began)[self.watched]
 		length = np.linalg.norm(way[k])
+		if length < self.parts[-1][k] * self.limits[k]:
+			return True
 		along = way[k] / length
 		withIt = {int(self.watched[j]) for j in np.flatnonzero(way @ along >= sameWay * length)}
 		parts = {part for j in withIt for part in partsOf(j)}

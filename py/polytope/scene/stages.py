@@ -2,6 +2,7 @@
 """Stages of frictionReduction and strengthReduction, in which a scene comes to rest again or fails, each weaker than the one before."""
 
 import dataclasses
+import math
 import numbers
 from collections.abc import Iterable
 
@@ -35,9 +36,9 @@ class Stage:
 	"""'stable': at rest; 'failed': moved too far; 'creeping': neither by the time limit, which counts as failure."""
 	steps: int
 	speed: float
-	"""Speed of the fastest body at the end [m/s]."""
+	"""Speed of the fastest body at the end, of its centre or by its spin half a size away from it [m/s]."""
 	displacement: float
-	"""Way of the body that has moved most since the scene had settled, at the end [m]."""
+	"""Way of the body that has moved most since the scene had settled, at the end: of its centre, or by its turn half a size away from it [m]."""
 	samples: list
 	"""(time since the stage began [s], speed [m/s], displacement [m]) at each check."""
 	measured: object = None
@@ -72,6 +73,7 @@ class Reduction:
 			if value is not None and not value > 0:
 				raise ValueError(f'{name}: must be positive, got {value}')
 		self.stages, self.failedQueries = [], 0
+		self.sizes = {k: sizeOf(k) for k in self.bodies}
 
 	def _takeSteps(self, steps, what):
 		self.steps = list(steps)
@@ -83,7 +85,7 @@ class Reduction:
 		"""The stage that the scene begins with."""
 		self.stages, self.failedQueries = [], 0
 		if self.failedDistance is None:
-			self.failedDistance = partOfSize * max(map(sizeOf, self.bodies))
+			self.failedDistance = partOfSize * max(self.sizes.values())
 		settled = self._stage(level)
 		if settled.outcome != 'stable':
 			raise RuntimeError(
@@ -95,7 +97,7 @@ class Reduction:
 					else 'take more damping, a larger stableSpeed, or more mostSteps'
 				)
 			)
-		self.origins = self._positions()
+		self.origins = self._poses()
 		self._save()
 
 	def _bracket(self, stable):
@@ -129,7 +131,7 @@ class Reduction:
 	def _stage(self, level):
 		self._set(level)
 		if not self.stages:
-			self.origins = self._positions()
+			self.origins = self._poses()
 		stage = Stage(level, 'creeping', 0, 0.0, 0.0, [])
 		self.stages.append(stage)
 		began, calm = O.time, 0
@@ -137,8 +139,8 @@ class Reduction:
 			for _ in range(self.checkEvery):
 				O.step()  # O.run(…, wait=True) checks only every 40 ms whether it is done
 			stage.steps += self.checkEvery
-			stage.speed = max(float(O.bodies[k].state.vel.norm()) for k in self.bodies)
-			stage.displacement = max(float((O.bodies[k].state.pos - origin).norm()) for k, origin in self.origins.items())
+			stage.speed = max(_speed(O.bodies[k].state, self.sizes[k]) for k in self.bodies)
+			stage.displacement = max(_way(O.bodies[k].state, self.sizes[k], *origin) for k, origin in self.origins.items())
 			stage.samples.append((O.time - began, stage.speed, stage.displacement))
 			self.progress(stage)
 			calm = calm + 1 if stage.speed < self.stableSpeed else 0
@@ -151,8 +153,8 @@ class Reduction:
 		stage.measured = self.measure()
 		return stage
 
-	def _positions(self):
-		return {k: O.bodies[k].state.pos for k in self.bodies}
+	def _poses(self):
+		return {k: (O.bodies[k].state.pos, O.bodies[k].state.ori) for k in self.bodies}
 
 	def _bookQueries(self):
 		"""Adds the contact functors' counts of failures to ours."""
@@ -161,6 +163,15 @@ class Reduction:
 				if hasattr(functor, 'stats'):
 					self.failedQueries += functor.stats()['failures']
 					functor.resetStats()
+
+
+def _speed(state, size):
+	return max(float(state.vel.norm()), float(state.angVel.norm()) * size / 2)
+
+
+def _way(state, size, place, orientation):
+	turn = (state.ori * orientation.conjugate()).toAxisAngle()[1]
+	return max(float((state.pos - place).norm()), float(min(turn, 2 * math.pi - turn)) * size / 2)
 
 
 def sizeOf(number):

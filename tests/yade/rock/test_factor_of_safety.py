@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from rockScenes import across, along, blockMaterial, blockOnSlope, dip, friction, gravity, gravityOnSlope
 from scipy.optimize import brentq
-from yade import FrictMat, NewtonIntegrator, O, PyRunner, Vector3, polytope
+from yade import FrictMat, NewtonIntegrator, O, PyRunner, TorqueEngine, Vector3, polytope
 from yade.polytope.scene.permanentLoads import permanentLoads
 from yade.polytope.strengthReduction import divideStrengths
 
@@ -487,3 +487,28 @@ def testBodiesThatLimitTheStepAreHeavierInTrials():
 		assert not permanentLoads() and O.dt == step
 		steps[ownStep] = sum(trial.steps for trial in found.trials)
 	assert steps[False] < 0.6 * steps[True]
+
+
+meanArm = (math.sqrt(2) + math.asinh(1)) / 6
+"""Mean distance from the middle of a square of edge 1."""
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+@pytest.mark.parametrize('twist', [1.5, 0.5])
+@pytest.mark.parametrize('engine', [False, True])
+def testABlockThatOnlySpinsFails(twist, engine):
+	"""*twist*: of what friction bears under an even pressure. Its centre stays where it is, and no force lacks."""
+	blockMaterial(density=2600, normalStiffness=1e9, shearStiffness=1e9)
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
+	block = O.bodies.append(polytope.cuboid((0, 0, 0.2), (0.5, 0.5, 0.2)))
+	O.engines = polytope.engines(gravity=(0, 0, -gravity))
+	moment = (0, 0, twist * math.tan(friction) * O.bodies[block].state.mass * gravity * meanArm)
+	if engine:
+		O.engines = [*O.engines[:3], TorqueEngine(ids=[block], moment=moment), *O.engines[3:]]
+	else:
+		O.forces.setPermT(block, moment)
+	polytope.settle()
+	found = polytope.factorOfSafety()
+	assert holds(found, 1 / twist, 0.01, rest=0.1)
+	assert found.bodies == [block] and found.rotations[0][2] > 0.04 and np.abs(found.rotations[0][:2]).max() < 1e-3
+	assert f'body {block} turns by ' in str(found) and '° about (0.00, 0.00, 1.00)' in str(found).replace('-0.00', '0.00')

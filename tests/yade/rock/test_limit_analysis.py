@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from rockScenes import across, along, blockMaterial, blockOnSlope, dip, friction, gravity
 from scipy.optimize import minimize
-from yade import FrictMat, O, PolytopeBond, PolytopeBonds, RockJointMat, Vector3, polytope, utils
+from yade import FrictMat, ForceEngine, O, PolytopeBond, PolytopeBonds, RadialForceEngine, RockJointMat, TorqueEngine, Vector3, polytope, utils
 
 project = pathlib.Path(__file__).resolve().parents[3]
 sys.path.append(str(project / 'examples/paper'))
@@ -496,6 +496,33 @@ def testABlockThatTwistsOnItsBase():
 	found = polytope.limitAnalysis(tolerance=fine)
 	expect(found, 1e5 / math.sqrt(2) / 4e4)
 	assert found.bodies == [block] and found.rotations[0] == pytest.approx((0, 0, 0.04), abs=1e-3)
+
+
+@pytest.mark.parametrize('engine', [False, True])
+def testAJointThatTwistsBearsMoreAtItsCorners(engine):
+	"""Friction on a floor, twisted by half of what it bears under an even pressure: the page says by how much the figure is too high. The moment of an engine counts
+	as one that is given by O.forces."""
+	block = blockOnSlope(0.0, (0.5, 0.5, 0.5))
+	evenly, atCorners = (math.sqrt(2) + math.asinh(1)) / 6, math.sqrt(0.5)
+	moment = (0, 0, math.tan(friction) * O.bodies[block].state.mass * gravity * evenly / 2)
+	if engine:
+		O.engines = [*O.engines[:3], TorqueEngine(ids=[block], moment=moment), *O.engines[3:]]
+	else:
+		O.forces.setPermT(block, moment)
+	found = polytope.limitAnalysis(tolerance=fine)
+	expect(found, 2 * atCorners / evenly)
+	assert 2 * atCorners / evenly == pytest.approx(3.696, abs=1e-3)
+
+
+def testForcesOfEnginesCount():
+	block = blockOnSlope(0.0, (0.5, 0.5, 0.1))
+	weight = O.bodies[block].state.mass * gravity
+	dead = ForceEngine(ids=[block], force=(weight, 0, 0), dead=True)
+	O.engines = [*O.engines[:3], ForceEngine(ids=[block], force=(weight / 4, 0, 0)), dead, *O.engines[3:]]
+	expect(polytope.limitAnalysis(tolerance=fine), 4 * math.tan(friction))
+	O.engines = [*O.engines[:3], RadialForceEngine(ids=[block], fNorm=1), *O.engines[3:]]
+	with pytest.warns(UserWarning, match='RadialForceEngine change'):
+		polytope.limitAnalysis()
 
 
 def testThePackageThatLacksIsNamed(monkeypatch):

@@ -51,7 +51,7 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	at rest, only be appended, with O.engines for gravity. Joints are where faces of Polytopes lie on each other; what blocks touch by edges
 	and corners alone does not count. A joint bears forces at the corners of the common face: normal forces, down to the tensile strength
 	times the area that the corner stands for, and shear forces within Coulomb's cone with friction and cohesion. The scene stands where
-	forces within these strengths balance weight, permanent forces (O.forces.setPermF) and water on every block (static theorem). Else it
+	forces within these strengths balance weight, given loads (O.forces.setPermF and setPermT, ForceEngine, TorqueEngine) and water on every block (static theorem). Else it
 	fails, and the motion is found along with that (kinematic theorem). Second-order cones, not polygons in their place, solved by an
 	interior-point method with the package python3-cvxopt.
 
@@ -107,7 +107,7 @@ class _Search:
 				bracket.stable = 1 / most
 				if not self._stands(bracket.stable, bracket):
 					raise RuntimeError(
-						f'the scene does not stand, not even with {most:g} times {", ".join(self.reduce)}: {told(*self._mode()[:2])}; a support, or more of the other strengths'
+						f'the scene does not stand, not even with {most:g} times {", ".join(self.reduce)}: {told(*self._mode())}; a support, or more of the other strengths'
 					)
 			while not bracket.isFound:
 				if self._stands(bracket.next(), bracket) and bracket.stable >= most:

@@ -10,7 +10,7 @@ from yade import O, Polytope, RockJointMat
 
 from ...bonding.bonds import intactBonds, presentBonds
 from ...scene.movers import canMove, moverOf, partsOf
-from ...scene.permanentLoads import permanentLoads
+from .givenLoads import givenLoads
 from ...scene.present import integrators
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker, sizeOf
@@ -32,7 +32,7 @@ class Blocks:
 	centres: np.ndarray
 	"""(n, 3) [m]"""
 	loads: np.ndarray
-	"""(n, 6) weight, permanent loads and water: force [N], and moment about the centre [N·m]"""
+	"""(n, 6) weight, given loads and water: force [N], and moment about the centre [N·m]"""
 	free: np.ndarray
 	"""(n, 6) of the components of motion those that are not blocked"""
 	sizes: np.ndarray
@@ -115,7 +115,7 @@ def blocksOf():
 	ids = _groups()
 	if not ids:
 		raise ValueError('O.bodies: none can move; append blocks that are not fixed')
-	permanent = permanentLoads()
+	given = givenLoads()
 	weights = weightAndWater([k for group in ids for k in group])
 	loads, centres = np.zeros((len(ids), 6)), np.zeros((len(ids), 3))
 	for row, group in enumerate(ids):
@@ -126,7 +126,7 @@ def blocksOf():
 			arm = place - centres[row]
 			own = [
 				weights[k],
-				*(_atCentre(permanent[part], part, k) for part in {k, *partsOf(k)} & set(permanent)),
+				*(_atCentre(given[part], part, k) for part in {k, *partsOf(k)} & set(given)),
 			]
 			for force, moment in own:
 				force = np.array([float(x) for x in force])
@@ -135,7 +135,7 @@ def blocksOf():
 	free = np.array([[component not in some for component in components] for some in blocked])
 	if not (loads * free).any():
 		raise ValueError(
-			'O.engines: nothing loads the blocks; give NewtonIntegrator gravity, or blocks a permanent force (O.forces.setPermF)'
+			'O.engines: nothing loads the blocks; give NewtonIntegrator gravity, or blocks a permanent force (O.forces.setPermF) or a ForceEngine'
 		)
 	return Blocks(ids, centres, loads, free, np.array([float(np.linalg.norm([sizeOf(k) for k in group], ord=3)) for group in ids]))
 
