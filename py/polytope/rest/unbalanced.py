@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How far each body is from equilibrium: its resultant force over what it bears."""
+"""How far each body is from equilibrium: its resultant force, or moment, over what it bears."""
 
 import numpy as np
 from yade import O
@@ -10,13 +10,14 @@ from ..measures.arrays import arrays
 from ..scene.movers import movers
 from ..scene.permanentLoads import permanentLoads
 from ..scene.present import gravityOf
+from ..scene.stages import sizeOf
 
 __all__ = ['resultants', 'unbalancedForce', 'unbalancedForces']
 
 
 def unbalancedForce(watched=None):
-	"""Unbalanced force of the body that is least at rest: its resultant, along what it can move, over its weight, or over half of what
-	contacts, bonds and bolts press and pull it with, where that is more.
+	"""Unbalanced force of the body that is least at rest: its resultant, along what it can move, or its resultant moment over half of its size, whichever is
+	larger, over its weight, or over half of what contacts, bonds and bolts press and pull it with, where that is more.
 
 	:param watched: ids, of clumps their own; None: all that can move
 	"""
@@ -48,7 +49,9 @@ def unbalancedForces(watched=None, masses=None):
 	if watched is not None:
 		moving = np.intersect1d(moving, np.fromiter(watched, int))
 	found = np.zeros(last)
-	found[moving] = np.linalg.norm(resultants()[moving], axis=1) / scale[moving]
+	arms = np.array([sizeOf(int(k)) / 2 for k in moving])
+	lacking = np.maximum(np.linalg.norm(resultants()[moving], axis=1), np.linalg.norm(_moments()[moving], axis=1) / arms)
+	found[moving] = lacking / scale[moving]
 	return found
 
 
@@ -71,6 +74,22 @@ def resultants():
 	return held
 
 
+def _moments():
+	"""(n, 3) by id: moment on each body about its centre, about the axes that it can turn about; 0 of those that cannot, and of parts of
+	clumps [N·m]."""
+	bodies = arrays().bodies
+	found = np.zeros((len(O.bodies), 3))
+	found[bodies.ids] = bodies.torques
+	clumps = set(bodies.ids[bodies.clumpIds == bodies.ids].tolist())
+	for key, (_, torque) in permanentLoads().items():
+		if key in clumps:
+			found[key] += [float(x) for x in torque]
+	moving, free = _movers('XYZ')
+	held = np.zeros(found.shape)
+	held[moving] = free * found[moving]
+	return held
+
+
 def _owners(bodies):
 	"""What each body moves with, by id: the body itself, or the clump that it is part of, which moves as one."""
 	owner = np.arange(len(O.bodies))
@@ -86,10 +105,10 @@ def _trueMasses(bodies, masses):
 	return true
 
 
-def _movers():
-	"""(ids of the bodies that forces move, of clumps their own; (n, 3) 1 for x, y, z along which they do, else 0)"""
+def _movers(axes='xyz'):
+	"""(ids of the bodies that forces move, of clumps their own; (n, 3) 1 for the axes along which, or with XYZ about which, they do, else 0)"""
 	moving = movers()
 	held = [body.state.blockedDOFs for body in moving]
-	return np.array([body.id for body in moving], int), np.array([[axis not in one for axis in 'xyz'] for one in held], float).reshape(
+	return np.array([body.id for body in moving], int), np.array([[axis not in one for axis in axes] for one in held], float).reshape(
 		-1, 3
 	)

@@ -13,8 +13,9 @@ from ..scene.present import jointMaterials
 from ..scene.stages import sizeOf
 from .holding import isHeld, isThin, touched, unsupported
 from .unbalanced import unbalancedForces
+from .ways import posesById, waysOf
 
-__all__ = ['NotAtRest', 'Restless', 'Unrest', 'placesById', 'remedy', 'told']
+__all__ = ['NotAtRest', 'Restless', 'Unrest', 'remedy', 'told']
 
 firstSpan = 1250
 """Length of the first span in steps; as often it is looked what falls, which it has by more than its size."""
@@ -80,11 +81,12 @@ class Unrest:
 		self.stood = None
 		"""Ids of bodies that touched others at the first look."""
 		self.sum = self.mean = self.before = np.zeros(0)
-		self.origin = self.began = self.last = placesById()
+		self.sizes = _sizes()
+		self.origin = self.began = self.last = posesById()
 		self.start = arrays().bodies
-		self.span = self.spanBefore = np.zeros(len(self.origin))
-		"""Largest ways since the span began, and in the one before [m]."""
-		self.path = self.pathBefore = np.zeros(len(self.origin))
+		self.span = self.spanBefore = np.zeros(len(O.bodies))
+		"""Largest ways since the span began, and in the one before, by moving or by turning (ways.py) [m]."""
+		self.path = self.pathBefore = np.zeros(len(O.bodies))
 		"""Sums of the ways from look to look since the span began [m]."""
 		self.slid = set()
 		"""Ids of bodies that slid far away in the span before."""
@@ -97,17 +99,19 @@ class Unrest:
 		self.mean = self.sum / self.looks
 		if self.stood is None:
 			self.stood = set(map(int, np.unique(arrays().contacts.ids)))
-		places = placesById()
-		ways = _ways(self.began, places)
+		if len(O.bodies) != len(self.sizes):
+			self.sizes = _sizes()
+		poses = posesById()
+		ways = _waysWithTurns(self.began, poses, self.sizes)
 		self.span = np.maximum(_ofLength(self.span, len(ways)), ways)
-		self.path = _ofLength(self.path, len(ways)) + _ways(self.last, places)
-		self.last = places
+		self.path = _ofLength(self.path, len(ways)) + _waysWithTurns(self.last, poses, self.sizes)
+		self.last = poses
 		return float(forces.max(initial=0.0))
 
 	def displaced(self, held=frozenset()):
 		"""Bodies that touched others when it began, or were held in another way (their ids), and have moved by a tenth of their size or
 		more, as (id, way [m]), the farthest first."""
-		ways = _ways(self.origin, placesById())
+		ways = _ways(self.origin.places, posesById().places)
 		stood = (self.stood or set()) | held
 		far = [(int(k), float(ways[k])) for k in np.flatnonzero(ways > 0) if int(k) in stood and ways[k] > displacedBy * sizeOf(int(k))]
 		return sorted(far, key=lambda one: -one[1])
@@ -118,7 +122,7 @@ class Unrest:
 		if self.steps < self.end:
 			return self._falling()
 		found = self.moving()
-		ways = _ways(self.origin, self.last)
+		ways = _ways(self.origin.places, self.last.places)
 		far = {one.id for one in found if one.kind == 'slides' and ways[one.id] > farAway * sizeOf(one.id)}
 		slides = [one for one in found if one.id in far & self.slid] if self.steps >= patience else []
 		lost = [one for one in found if one.kind == 'falls'] or (found if all(map(self._isLost, found)) else slides)
@@ -130,7 +134,7 @@ class Unrest:
 
 	def moving(self, atLeast=0.0):
 		"""All bodies that are not at rest, and what they do; only those that have moved by at least this part of their size."""
-		ways = _ways(self.origin, self.last)
+		ways = _ways(self.origin.places, self.last.places)
 		span, path = (self.span, self.path) if self.looks else (self.spanBefore, self.pathBefore)
 		there = [int(k) for k in np.flatnonzero(self.mean > self.bound) if k < len(O.bodies) and O.bodies[int(k)] is not None]
 		if atLeast > 0:
@@ -173,6 +177,8 @@ class Unrest:
 		if sliding and way > away * size and span > before:
 			return 'slides', f'slides on body {sliding[0]}, by {way:.2g} m up to now'
 		turn = _turn(self.start, k)
+		if turn > leaning and way < math.radians(turn) * size / 10:
+			return 'moves', f'turns in place, by {turn:.0f}° up to now'
 		if turn > leaning:
 			return 'topples', f'topples: turned by {turn:.0f}°, has moved by {way:.2g} m'
 		return 'moves', f'has moved by {way:.2g} m'
@@ -212,12 +218,8 @@ def _couldHang(k):
 	return any(material.tensileStrength > 0 for material in jointMaterials([O.bodies[part] for part in partsOf(k)]))
 
 
-def placesById():
-	"""Places of bodies, (n, 3) by id [m]; zero for ids without a body"""
-	bodies = arrays().bodies
-	found = np.zeros((len(O.bodies), 3))
-	found[bodies.ids] = bodies.positions
-	return found
+def _sizes():
+	return np.array([0.0 if body is None else sizeOf(body.id) for body in (O.bodies[k] for k in range(len(O.bodies)))])
 
 
 def _turn(before, k):
@@ -234,6 +236,14 @@ def _ways(before, now):
 	found = np.zeros(len(now))
 	both = min(len(before), len(now))
 	found[:both] = np.linalg.norm(now[:both] - before[:both], axis=1)
+	return found
+
+
+def _waysWithTurns(before, now, sizes):
+	"""waysOf(); zero for bodies that are new"""
+	found = np.zeros(len(sizes))
+	both = min(len(before.places), len(sizes))
+	found[:both] = waysOf(before.of(slice(both)), now.of(slice(both)), sizes[:both])
 	return found
 
 

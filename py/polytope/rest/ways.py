@@ -8,7 +8,7 @@ from yade import O
 
 from ..measures.arrays import arrays
 
-__all__ = ['Poses', 'posesOf', 'turnsOf', 'waysOf']
+__all__ = ['Poses', 'posesById', 'waysOf']
 
 
 class Poses(NamedTuple):
@@ -17,23 +17,21 @@ class Poses(NamedTuple):
 	orientations: np.ndarray
 	"""(n, 4) quaternions (x, y, z, w)"""
 
+	def of(self, ids):
+		return Poses(self.places[ids], self.orientations[ids])
 
-def posesOf(ids):
-	"""Where these bodies are."""
+
+def posesById():
+	"""Of all bodies; those of ids without a body are at zero, not turned."""
 	bodies = arrays().bodies
-	row = np.zeros(len(O.bodies), int)
-	row[bodies.ids] = np.arange(len(bodies.ids))
-	return Poses(bodies.positions[row[ids]], bodies.orientations[row[ids]])
+	places, orientations = np.zeros((len(O.bodies), 3)), np.tile([0.0, 0.0, 0.0, 1.0], (len(O.bodies), 1))
+	places[bodies.ids], orientations[bodies.ids] = bodies.positions, bodies.orientations
+	return Poses(places, orientations)
 
 
 def waysOf(before, now, sizes):
-	"""(n,) way of the centre, or turnsOf(), whichever is larger [m]."""
-	return np.maximum(np.linalg.norm(now.places - before.places, axis=1), turnsOf(before, now, sizes))
-
-
-def turnsOf(before, now, sizes):
-	"""(n,) way of a point half a size away from the centre by the body's turn [m]."""
+	"""(n,) way of the centre, or of a point half a size away from it by the body's turn, whichever is larger [m]."""
 	(v, w), (u, s) = ((poses.orientations[:, :3], poses.orientations[:, 3:]) for poses in (before, now))
 	sine = np.linalg.norm(w * u - s * v - np.cross(v, u), axis=1)  # of half the angle: its cosine alone has half of the digits
 	cosine = np.abs((v * u).sum(axis=1) + (w * s)[:, 0])
-	return np.arctan2(sine, cosine) * sizes
+	return np.maximum(np.linalg.norm(now.places - before.places, axis=1), np.arctan2(sine, cosine) * sizes)

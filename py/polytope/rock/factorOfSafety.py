@@ -14,7 +14,7 @@ from ..pictures.films import filmEngines
 from ..rest.scaledMasses import scaledMassesIfPossible
 from ..rest.unbalanced import unbalancedForce
 from ..rest.unrest import Unrest
-from ..rest.ways import posesOf, waysOf
+from ..rest.ways import posesById, waysOf
 from ..scene.movers import canMove
 from ..scene.namedBodies import namedBodies
 from ..scene.permanentLoads import givePermanentLoads, permanentLoads
@@ -35,9 +35,6 @@ atRest, loosest = 0.05, 1e-3
 strength is too small, so this is far below it; and the largest such force, whatever the tolerance."""
 still = 1e-3
 """Way of a body in these looks, over that which counts as failure, below which it stands: what swings slowly has no unbalanced force for a moment."""
-unturned = 1e-5
-"""Way by its turn in these looks, over that which counts as failure, below which it stands: a body that spins lacks a moment, which no unbalanced force tells;
-with a hundredth more of it than its joints bear it turns by more."""
 between, looks = 50, 3
 """Steps between two looks, and looks in a row at which all must be at rest."""
 damping = 0.4
@@ -195,7 +192,7 @@ class _Search:
 		"""Begins with the scene's own strengths; where the scene fails with these, with strengths so large that it stands, from the same state."""
 		bracket = Bracket(self.tolerance, most)
 		self.settled = unbalancedForce(self.watched) < self.bound
-		self.origin = posesOf(self.watched)
+		self.origin = posesById().of(self.watched)
 		O.saveTmp(standing, quiet=True)
 		own = self._trial(1.0)
 		if own.outcome != 'stable':
@@ -209,7 +206,7 @@ class _Search:
 					f'the scene does not stand with its own strengths ({own.outcome}, unbalanced force {own.unbalanced:.2g} after {own.steps} steps; {told(*self.mode)}), '
 					f'nor with {most:g} times {", ".join(self.reduce)}; polytope.settle() first, a support, or more of the other strengths'
 				)
-		self.origin = posesOf(self.watched)
+		self.origin = posesById().of(self.watched)
 		return bracket
 
 	def _refuseUnsettled(self, bracket):
@@ -273,7 +270,7 @@ class _Search:
 		if not parts.max() <= 1 or motion.runsAway():  # not a number counts as failed
 			return 'failed'
 		self.quiet = self.quiet + 1 if trial.unbalanced < self.bound else 0
-		stands = self.quiet >= looks and motion.way(looks) < still and motion.turn(looks) < unturned and not motion.speedsUp()
+		stands = self.quiet >= looks and motion.way(looks) < still and not motion.speedsUp()
 		trial.trembling = [] if stands else _trembling(unrest)
 		return 'stable' if stands or trial.trembling else 'creeping'
 
@@ -286,13 +283,13 @@ class _Search:
 		return self._ways() / (partOfSize * self.sizes)
 
 	def _ways(self):
-		return waysOf(self.origin, posesOf(self.watched), self.sizes)
+		return waysOf(self.origin, posesById().of(self.watched), self.sizes)
 
 	def _motion(self):
 		"""(ids, displacements, rotations) of the bodies that have moved, the farthest first."""
 		ways = self._ways()
 		order = inMode(ways)
-		moved = (posesOf(self.watched).places - self.origin.places)[order]
+		moved = (posesById().of(self.watched).places - self.origin.places)[order]
 		turned = [_rotation(self.origin.orientations[k], O.bodies[self.watched[k]].state.ori) for k in order]
 		return [self.watched[k] for k in order], moved, np.array(turned)
 

@@ -7,8 +7,7 @@ from yade import O, Polytope, _polytope
 from ..measures.arrays import arrays
 from ..rest.holding import areJoined
 from ..rest.unbalanced import resultants
-from ..rest.unrest import placesById
-from ..rest.ways import posesOf, turnsOf, waysOf
+from ..rest.ways import posesById, waysOf
 from ..scene.movers import partsOf
 from ..scene.stages import partOfSize
 
@@ -49,35 +48,27 @@ class Motion:
 		"""Way of each that counts as failure [m]."""
 		self.parts = [np.zeros(len(sizes))]
 		"""Way of each body, or by its turn (rest/ways.py), over its limit at each look, from the start on."""
-		self.poses = self.last = posesOf(self.watched)
-		self.turned = []
-		"""Way of each body by its turn from look to look, over its limit."""
 		self.forces, self.looks = np.zeros((len(O.bodies), 3)), 0
 		"""Sum of the resultant forces of all bodies over the looks that count [N], and their number."""
 		self.taken, self.time = 0.0, O.time
 		"""D [J], up to this time [s]."""
-		self.began = self.now = placesById()
+		self.began = self.now = posesById()
 		self.touched, self.since = _touching(), (0, set())
 		"""Pairs of bodies that touched when it began, or long since, by half or a quarter of the looks: what still moves faster and faster
 		is not stopped by them; and those that touched at a look, with its number."""
 
 	def look(self):
-		before, self.last = self.last, posesOf(self.watched)
-		self.parts.append(waysOf(self.poses, self.last, self.sizes) / self.limits)
-		self.turned.append(turnsOf(before, self.last, self.sizes) / self.limits)
+		poses = posesById()
+		self.parts.append(waysOf(self.began.of(self.watched), poses.of(self.watched), self.sizes) / self.limits)
 		if len(self.parts) > 2 * self.since[0]:
 			self.touched, self.since = self.touched | self.since[1], (len(self.parts), _touching())
 		if self.parts[-1].max() < early:
 			self.forces, self.looks = self.forces + resultants(), self.looks + 1
-			self.taken, self.time, self.now = self.taken + _friction() * (O.time - self.time), O.time, placesById()
+			self.taken, self.time, self.now = self.taken + _friction() * (O.time - self.time), O.time, poses
 
 	def way(self, looks):
 		"""Largest way in the last looks, over its limit."""
 		return float(np.abs(self.parts[-1] - self.parts[max(0, len(self.parts) - looks)]).max())
-
-	def turn(self, looks):
-		"""Largest sum of ways by turning in the last looks, over its limit."""
-		return float(np.sum(self.turned[-looks:], axis=0).max())
 
 	def speedsUp(self):
 		"""Whether a body has moved faster and faster all the while: its joints lack little of what would hold it, less than what counts as
@@ -89,7 +80,7 @@ class Motion:
 
 		:param factor: by which they are divided now
 		"""
-		gained = float((self.forces * (self.now - self.began)).sum()) / max(1, self.looks)
+		gained = float((self.forces * (self.now.places - self.began.places)).sum()) / max(1, self.looks)
 		return factor * self.taken / (self.taken + gained) if self.taken > 0 and gained > 0 else None
 
 	def runsAway(self):
@@ -109,7 +100,7 @@ class Motion:
 		"""Whether body k meets another one, which it has not touched for long and which does not move with it; or it may be: a bolt or a
 		bond joins it, or what moves with it, and may pull more the farther it goes. A bolt across a joint pulls not at all at first. Of a body
 		that turns more than it moves, it is not looked what is ahead."""
-		way = (placesById() - self.began)[self.watched]
+		way = (posesById().places - self.began.places)[self.watched]
 		length = np.linalg.norm(way[k])
 		if length < self.parts[-1][k] * self.limits[k]:
 			return True

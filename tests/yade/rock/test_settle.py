@@ -291,3 +291,17 @@ def testAClumpUnderAPermanentForceComesToRest(density):
 	O.forces.setPermF(clump, (-0.3 * float(O.bodies[clump].state.mass) * 9.81, 0, 0))
 	polytope.settle(densityScaling=density)
 	assert O.bodies[clump].state.vel.norm() < 1e-6
+
+
+def testABlockThatOnlySpinsIsNotAtRest():
+	"""Twisted by half as much again as its friction bears: its centre stays, and no force lacks."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=math.radians(30)))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
+	block = O.bodies.append(polytope.cuboid((0, 0, 0.2), (0.5, 0.5, 0.2)))
+	O.engines = polytope.engines(gravity=(0, 0, -9.81))
+	yielding = math.tan(math.radians(30)) * O.bodies[block].state.mass * 9.81 * (math.sqrt(2) + math.asinh(1)) / 6
+	O.forces.setPermT(block, (0, 0, 1.5 * yielding))
+	with pytest.raises(polytope.NotAtRest, match=f'body {block} turns in place, by '):
+		polytope.settle(elastic=False, steps=3000)
+	O.forces.setPermT(block, (0, 0, 0.9 * yielding))
+	assert polytope.settle(elastic=False) < 3000
