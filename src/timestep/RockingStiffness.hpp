@@ -26,14 +26,14 @@ enum class FaceForce : int {
 /// Rocking stiffness of two flush faces with the contact model *spring* over that of a pressure of the same stiffness over the area. A tilt makes the
 /// depth h + δ with ∫ δ dA = 0; with V = ∫ h²/4 dA and W = ∫ h³/24 dA (SurfaceContact.hpp) the energy is ½ k (∫ h³/∫ h²)² = ½ k (h² + 4 ∫ δ² dA/A)
 /// to second order: the pressure's has 1 for the 4.
-constexpr Real rockingOfSpring = 4;
+constexpr int rockingOfSpring = 4;
 
 /// Rocking stiffness of two flush faces over their normal stiffness [m²/rad], where the force is that of a pressure or of the contact model *spring*:
 /// 1/A ∫ (r × n)(r × n)ᵀ dA, times rockingOfSpring for the latter. `meanSquare`: 1/A ∫ r rᵀ dA, r from the centre of the force.
 inline Matrix3 rockingOfFaces(const Matrix3& meanSquare, const Vector3& normal, FaceForce force)
 {
 	const Matrix3 turn  = crossMatrix(normal);
-	const Real    times = force == FaceForce::Spring ? rockingOfSpring : Real(1);
+	const Real    times = force == FaceForce::Spring ? rockingOfSpring : 1;
 	return times * turn * meanSquare * turn.transpose();
 }
 

@@ -30,8 +30,9 @@ def messagesOf(entry):
 	return '' if done.returncode == 0 else f'{entry["file"]}\n{done.stderr}'
 
 
-def testCompilesForFloat128(tmp_path):
-	options = ['-DPOLYTOPE_YADE=ON', '-DPOLYTOPE_PRECISION=float128', '-DPOLYTOPE_TESTS=OFF', f'-DYADE_SOURCE_DIR={sources}']
+@pytest.mark.parametrize('precision', ['float128', 'mpfr150'])
+def testCompiles(precision, tmp_path):
+	options = ['-DPOLYTOPE_YADE=ON', f'-DPOLYTOPE_PRECISION={precision}', '-DPOLYTOPE_TESTS=OFF', f'-DYADE_SOURCE_DIR={sources}']
 	configured = subprocess.run(['cmake', '-S', project, '-B', tmp_path, '-G', 'Ninja', *options], capture_output=True, text=True)
 	assert configured.returncode == 0, configured.stderr
 	entries = json.loads((tmp_path / 'compile_commands.json').read_text())
