@@ -300,7 +300,14 @@ def threadGroup(run):
 
 
 def besideGroup(run):
-	found = beside.measure(run.beside, run.core, run.quick)
+	found = []
+	try:
+		for one in beside.measure(run.beside, run.core, run.quick):
+			found.append(one)
+	except KeyboardInterrupt:
+		run.note('interrupted: scenes that were not measured are left out.')
+	except beside.Failed as error:
+		run.note(f'not all scenes were measured: {error}')
 	revision = output(*gitOf(run.beside), 'rev-parse', 'HEAD')[:8]
 	run.results['beside'] = {'revision': revision, 'scenes': found}
 	rows = [

@@ -51,7 +51,7 @@ def scenesOf(quick):
 	"""{name: (whether it is a heap, request)}"""
 	number, columns, settle = (300, 7, 3000) if quick else (2000, 18, 17000)
 	heap = {'number': number, 'columns': columns, 'compact': True, 'settle': settle, 'steps': 300}
-	slope = {'scale': 1 if quick else 3, 'settle': 1000 if quick else 26000, 'steps': 300}
+	slope = {'scale': 1 if quick else 2.5, 'settle': 1000 if quick else 26000, 'steps': 300}
 	return {
 		f'heap of {number} cubes': (True, {'faces': [6], **heap}),
 		f'heap of {number} solids of five kinds': (True, {'faces': [4, 6, 8, 12, 20], **heap}),
@@ -60,10 +60,9 @@ def scenesOf(quick):
 
 
 def measure(other, core, quick):
-	"""[(name, {'ours', 'other': result})]: each scene per area and per contact; a result has perBody [µs]."""
+	"""(name, {'ours', 'other': result}) of each scene per area and per contact, one after the other; a result has perBody [µs]."""
 	project = here.parents[2]
 	cases = [(name, perArea, *one) for name, one in scenesOf(quick).items() for perArea in (True, False)]
-	found = []
 	for name, perArea, isHeap, request in tqdm(cases, desc='beside the other revision'):
 		both = {}
 		for which, checkout in (('ours', project), ('other', other)):
@@ -71,5 +70,4 @@ def measure(other, core, quick):
 			both[which] = run(checkout, program, core, perArea=perArea, **request)
 			both[which]['perBody'] = perBody(both[which])
 		bodies = '' if isHeap else f' of {both["ours"]["bodies"]} blocks'
-		found.append((f'{name}{bodies}, per {"area" if perArea else "contact"}', both))
-	return found
+		yield f'{name}{bodies}, per {"area" if perArea else "contact"}', both
