@@ -36,8 +36,8 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000, densitySca
 	forces of excavated bodies that still fade (*polytope.excavate*) are waited for.
 	A state that is saved meanwhile has joints with their strength, but this damping.
 
-	:param unbalanced: resultant force on a body, or moment over half of its size where that is more, over its weight, or over half of what its contacts,
-	    bonds and bolts bear where that is more, below which it counts as being at rest [-]; of all bodies that can move
+	:param unbalanced: resultant force on a body, or moment over half of its size where that is more, over its weight, or over half of what
+	    its contacts, bonds and bolts bear where that is more, below which it counts as being at rest [-]; of all bodies that can move
 	:param elastic: False: joints keep their strength, only damping is changed
 	:param damping: of NewtonIntegrator meanwhile [-], above 0 and below 1
 	:param steps: most steps to take

@@ -16,8 +16,8 @@ __all__ = ['resultants', 'unbalancedForce', 'unbalancedForces']
 
 
 def unbalancedForce(watched=None):
-	"""Unbalanced force of the body that is least at rest: its resultant, along what it can move, or its resultant moment over half of its size, whichever is
-	larger, over its weight, or over half of what contacts, bonds and bolts press and pull it with, where that is more.
+	"""Unbalanced force of the body that is least at rest: its resultant, along what it can move, or its moment over half of its size where
+	that is more, over its weight, or over half of what contacts, bonds and bolts press and pull it with, where that is more.
 
 	:param watched: ids, of clumps their own; None: all that can move
 	"""
@@ -50,8 +50,8 @@ def unbalancedForces(watched=None, masses=None):
 		moving = np.intersect1d(moving, np.fromiter(watched, int))
 	found = np.zeros(last)
 	arms = np.array([sizeOf(int(k)) / 2 for k in moving])
-	lacking = np.maximum(np.linalg.norm(resultants()[moving], axis=1), np.linalg.norm(_moments()[moving], axis=1) / arms)
-	found[moving] = lacking / scale[moving]
+	force, moment = (np.linalg.norm(one[moving], axis=1) for one in (resultants(), _moments()))
+	found[moving] = np.maximum(force, moment / arms) / scale[moving]
 	return found
 
 

@@ -58,8 +58,8 @@ class Trial:
 	unbalanced: float
 	"""Force at the end [-]."""
 	displacement: float
-	"""Way of the body that has moved or turned farthest for its size (rest/ways.py), since the first state that stood: with the scene's own strengths, or with
-	*most* times them where the factor is below 1 [m]."""
+	"""Way of the body that has moved or turned farthest for its size (rest/ways.py), since the first state that stood: with the scene's own
+	strengths, or with *most* times them where the factor is below 1 [m]."""
 	trembling: list = dataclasses.field(default_factory=list)
 	"""Ids of bodies whose force does not fade though they stay where they are (*unrest*): 'stable' all the same."""
 

@@ -99,10 +99,10 @@ class Motion:
 	def _isStopped(self, k):
 		"""Whether body k meets another one, which it has not touched for long and which does not move with it; or it may be: a bolt or a
 		bond joins it, or what moves with it, and may pull more the farther it goes. A bolt across a joint pulls not at all at first. Of a body
-		that turns more than it moves, it is not looked what is ahead."""
+		that hardly moves and turns, it is not looked what is ahead."""
 		way = (posesById().places - self.began.places)[self.watched]
 		length = np.linalg.norm(way[k])
-		if length < self.parts[-1][k] * self.limits[k]:
+		if 2 * length < self.parts[-1][k] * self.limits[k]:
 			return True
 		along = way[k] / length
 		withIt = {int(self.watched[j]) for j in np.flatnonzero(way @ along >= sameWay * length)}

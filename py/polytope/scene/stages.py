@@ -38,7 +38,7 @@ class Stage:
 	speed: float
 	"""Speed of the fastest body at the end, of its centre or by its spin half a size away from it [m/s]."""
 	displacement: float
-	"""Way of the body that has moved most since the scene had settled, at the end: of its centre, or by its turn half a size away from it [m]."""
+	"""Way of the body that has moved most since the scene had settled, at the end, likewise [m]."""
 	samples: list
 	"""(time since the stage began [s], speed [m/s], displacement [m]) at each check."""
 	measured: object = None

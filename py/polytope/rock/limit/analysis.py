@@ -51,9 +51,9 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	at rest, only be appended, with O.engines for gravity. Joints are where faces of Polytopes lie on each other; what blocks touch by edges
 	and corners alone does not count. A joint bears forces at the corners of the common face: normal forces, down to the tensile strength
 	times the area that the corner stands for, and shear forces within Coulomb's cone with friction and cohesion. The scene stands where
-	forces within these strengths balance weight, given loads (O.forces.setPermF and setPermT, ForceEngine, TorqueEngine) and water on every block (static theorem). Else it
-	fails, and the motion is found along with that (kinematic theorem). Second-order cones, not polygons in their place, solved by an
-	interior-point method with the package python3-cvxopt.
+	forces within these strengths balance weight, given loads (O.forces.setPermF and setPermT, ForceEngine, TorqueEngine) and water on every
+	block (static theorem). Else it fails, and the motion is found along with that (kinematic theorem). Second-order cones, not polygons in
+	their place, solved by an interior-point method with the package python3-cvxopt.
 
 	A bolt that passes from block to block bears a tension up to what its steel (yieldForce) and grout hold, and its dowel across, all fully
 	mobilised whatever its stiffness; these are not divided. A bond is a joint of its own strengths (both infinite: what it joins is one

@@ -10,13 +10,13 @@ from yade import O, Polytope, RockJointMat
 
 from ...bonding.bonds import intactBonds, presentBonds
 from ...scene.movers import canMove, moverOf, partsOf
-from .givenLoads import givenLoads
 from ...scene.present import integrators
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker, sizeOf
 from ..commonFaces import boundFaces, commonFaces, lesser, materialsOfSides
 from ..faces import frameOf, triangles
 from ..stress.forces import weightAndWater
+from .givenLoads import givenLoads
 
 __all__ = ['Blocks', 'Corners', 'blocksOf', 'cornersOf', 'refuseScene']
 

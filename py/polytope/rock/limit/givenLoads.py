@@ -13,8 +13,8 @@ changing = InterpolatingDirectedForceEngine, RadialForceEngine, DragEngine, Line
 
 
 def givenLoads():
-	"""Body's id → (force at its centre [N], torque [N·m]), of O.forces.setPermF and setPermT, and of the engines ForceEngine and TorqueEngine that are not dead.
-	Warns of engines whose forces change."""
+	"""Body's id → (force at its centre [N], torque [N·m]), of O.forces.setPermF and setPermT, and of the engines ForceEngine and
+	TorqueEngine that are not dead. Warns of engines whose forces change."""
 	loads = permanentLoads()
 
 	def add(k, force, torque):
