@@ -64,8 +64,9 @@ class FrictionReduction(Reduction):
 	A stage is *stable* when all bodies are slower than *stableSpeed* at three consecutive checks, *checkEvery* steps apart (a body that
 	oscillates is slow for a moment), and has *failed* when one of them is further than *failedDistance* from where it was when the scene
 	had settled. Speed and way are of the centre, or by the body's turn half a size away from it, whichever is larger. States are kept with
-	O.saveTmp: after run(), and after restore(), bodies, contacts and engines are new Python objects, so hold ids, not bodies. Engines' own counters start anew too; failed contact queries are summed up here. Permanent forces and torques
-	(O.forces.setPermF, setPermT), which O.saveTmp leaves out, are kept.
+	O.saveTmp: after run(), and after restore(), bodies, contacts and engines are new Python objects, so hold ids, not bodies. Engines' own
+	counters start anew too; failed contact queries are summed up here. Permanent forces and torques (O.forces.setPermF, setPermT), which
+	O.saveTmp leaves out, are kept.
 
 	:param bodies: ids of the bodies that are watched
 	:param float start: friction angle to settle at [rad]

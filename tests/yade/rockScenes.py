@@ -11,6 +11,8 @@ dip, friction = math.radians(40), math.radians(30)
 weight = 1000 * gravity
 """Weight of a block of 1 × 1 × 0.2 m, and its parts across and along a plane of that dip [N]."""
 across, along = weight * math.cos(dip), weight * math.sin(dip)
+meanArm = (math.sqrt(2) + math.asinh(1)) / 6
+"""Mean distance from the middle of a square of edge 1, by which friction under an even pressure bears a twist [-]."""
 
 
 def blockMaterial(**joint):

@@ -50,43 +50,36 @@ def unbalancedForces(watched=None, masses=None):
 		moving = np.intersect1d(moving, np.fromiter(watched, int))
 	found = np.zeros(last)
 	arms = np.array([sizeOf(int(k)) / 2 for k in moving])
-	force, moment = (np.linalg.norm(one[moving], axis=1) for one in (resultants(), _moments()))
+	loads = _loads()[moving]
+	force, moment = np.linalg.norm(loads[:, :3], axis=1), np.linalg.norm(loads[:, 3:], axis=1)
 	found[moving] = np.maximum(force, moment / arms) / scale[moving]
 	return found
 
 
 def resultants():
 	"""(n, 3) by id: force on each body with its weight, along what it can move; 0 of those that cannot, and of parts of clumps [N]."""
+	return _loads()[:, :3]
+
+
+def _loads():
+	"""(n, 6) by id: the same, and the moment about the body's centre, about the axes that it can turn about [N·m]."""
 	bodies = arrays().bodies
 	last, owner = len(O.bodies), _owners(bodies)
-	single = bodies.clumpIds != bodies.ids  # a clump's own row has the sum of its parts, without its permanent force
-	found = np.column_stack([np.bincount(owner[bodies.ids[single]], bodies.forces[single, m], last) for m in range(3)])
+	single = bodies.clumpIds != bodies.ids  # a clump's own row has the sum of its parts, without its permanent load
+	forces = np.column_stack([np.bincount(owner[bodies.ids[single]], bodies.forces[single, m], last) for m in range(3)])
+	moments = np.zeros((last, 3))
+	moments[bodies.ids] = bodies.torques
 	clumps = set(bodies.ids[~single].tolist())
-	for key, (force, _) in permanentLoads().items():
+	for key, (force, torque) in permanentLoads().items():
 		if key in clumps:
-			found[key] += [float(x) for x in force]
+			forces[key] += [float(x) for x in force]
+			moments[key] += [float(x) for x in torque]
 	present = np.zeros(last)
 	present[bodies.ids] = bodies.masses  # a scaled mass comes with a permanent force that takes away what it adds to the weight
-	found = found + np.outer(present, np.array(gravityOf(), float))  # whole numbers where there is none
+	forces = forces + np.outer(present, np.array(gravityOf(), float))  # whole numbers where there is none
 	moving, free = _movers()
-	held = np.zeros((last, 3))
-	held[moving] = free * found[moving]  # what is held bears any force
-	return held
-
-
-def _moments():
-	"""(n, 3) by id: moment on each body about its centre, about the axes that it can turn about; 0 of those that cannot, and of parts of
-	clumps [N·m]."""
-	bodies = arrays().bodies
-	found = np.zeros((len(O.bodies), 3))
-	found[bodies.ids] = bodies.torques
-	clumps = set(bodies.ids[bodies.clumpIds == bodies.ids].tolist())
-	for key, (_, torque) in permanentLoads().items():
-		if key in clumps:
-			found[key] += [float(x) for x in torque]
-	moving, free = _movers('XYZ')
-	held = np.zeros(found.shape)
-	held[moving] = free * found[moving]
+	held = np.zeros((last, 6))
+	held[moving] = free * np.hstack([forces, moments])[moving]  # what is held bears any force
 	return held
 
 
@@ -105,10 +98,9 @@ def _trueMasses(bodies, masses):
 	return true
 
 
-def _movers(axes='xyz'):
-	"""(ids of the bodies that forces move, of clumps their own; (n, 3) 1 for the axes along which, or with XYZ about which, they do, else 0)"""
+def _movers():
+	"""(ids of the bodies that forces move, of clumps their own; (n, 6) 1 for the axes along which, and then about which, they do, else 0)"""
 	moving = movers()
 	held = [body.state.blockedDOFs for body in moving]
-	return np.array([body.id for body in moving], int), np.array([[axis not in one for axis in axes] for one in held], float).reshape(
-		-1, 3
-	)
+	free = np.array([[axis not in one for axis in 'xyzXYZ'] for one in held], float)
+	return np.array([body.id for body in moving], int), free.reshape(-1, 6)

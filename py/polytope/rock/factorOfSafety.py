@@ -81,8 +81,9 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	trial by trial. A trial begins at the last state that stood: strengths are only ever lowered from there, so its forces are in
 	equilibrium, and no joint bore more than its strength on the way, as if rock weathered. It is stable when no body has an unbalanced
 	force above a twentieth of the tolerance (0.001 at most) and none moves, or only such as tremble in place for good. It has failed when a
-	body has moved by a fiftieth of its size since the scene stood with its own strengths, or turned by 0.04 rad, or in this trial by a quarter of that faster and
-	faster, with nothing ahead that could stop it and no bolt or bond that holds it. A body that moves and comes to rest before is stable.
+	body has moved by a fiftieth of its size since the scene stood with its own strengths, or turned by 0.04 rad, or in this trial by a
+	quarter of that faster and faster, with nothing ahead that could stop it and no bolt or bond that holds it. A body that moves and comes
+	to rest before is stable.
 	Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a time. Then
 	the scene is what it was, time and joints included. Bodies, contacts and engines are new Python objects, as after O.loadTmp: hold ids.
 

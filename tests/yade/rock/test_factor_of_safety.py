@@ -6,7 +6,7 @@ import pathlib
 
 import numpy as np
 import pytest
-from rockScenes import across, along, blockMaterial, blockOnSlope, dip, friction, gravity, gravityOnSlope
+from rockScenes import across, along, blockMaterial, blockOnSlope, dip, friction, gravity, gravityOnSlope, meanArm
 from scipy.optimize import brentq
 from yade import FrictMat, NewtonIntegrator, O, PyRunner, TorqueEngine, Vector3, polytope
 from yade.polytope.scene.permanentLoads import permanentLoads
@@ -487,10 +487,6 @@ def testBodiesThatLimitTheStepAreHeavierInTrials():
 		assert not permanentLoads() and O.dt == step
 		steps[ownStep] = sum(trial.steps for trial in found.trials)
 	assert steps[False] < 0.6 * steps[True]
-
-
-meanArm = (math.sqrt(2) + math.asinh(1)) / 6
-"""Mean distance from the middle of a square of edge 1."""
 
 
 @pytest.mark.filterwarnings('ignore:gravity at once')

@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 import pytest
-from rockScenes import across, along, blockMaterial, blockOnSlope, dip, friction, gravity
+from rockScenes import across, along, blockMaterial, blockOnSlope, dip, friction, gravity, meanArm
 from scipy.optimize import minimize
 from yade import FrictMat, ForceEngine, O, PolytopeBond, PolytopeBonds, RadialForceEngine, RockJointMat, TorqueEngine, Vector3, polytope, utils
 
@@ -503,15 +503,15 @@ def testAJointThatTwistsBearsMoreAtItsCorners(engine):
 	"""Friction on a floor, twisted by half of what it bears under an even pressure: the page says by how much the figure is too high. The moment of an engine counts
 	as one that is given by O.forces."""
 	block = blockOnSlope(0.0, (0.5, 0.5, 0.5))
-	evenly, atCorners = (math.sqrt(2) + math.asinh(1)) / 6, math.sqrt(0.5)
-	moment = (0, 0, math.tan(friction) * O.bodies[block].state.mass * gravity * evenly / 2)
+	atCorners = math.sqrt(0.5)
+	moment = (0, 0, math.tan(friction) * O.bodies[block].state.mass * gravity * meanArm / 2)
 	if engine:
 		O.engines = [*O.engines[:3], TorqueEngine(ids=[block], moment=moment), *O.engines[3:]]
 	else:
 		O.forces.setPermT(block, moment)
 	found = polytope.limitAnalysis(tolerance=fine)
-	expect(found, 2 * atCorners / evenly)
-	assert 2 * atCorners / evenly == pytest.approx(3.696, abs=1e-3)
+	expect(found, 2 * atCorners / meanArm)
+	assert 2 * atCorners / meanArm == pytest.approx(3.696, abs=1e-3)
 
 
 def testForcesOfEnginesCount():

@@ -306,7 +306,7 @@ def besideGroup(run):
 			found.append(one)
 	except KeyboardInterrupt:
 		run.note('interrupted: scenes that were not measured are left out.')
-	except beside.Failed as error:
+	except scenes.SceneFailed as error:
 		run.note(f'not all scenes were measured: {error}')
 	revision = output(*gitOf(run.beside), 'rev-parse', 'HEAD')[:8]
 	run.results['beside'] = {'revision': revision, 'scenes': found}

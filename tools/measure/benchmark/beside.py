@@ -8,17 +8,13 @@ import json
 import os
 import pathlib
 import statistics
-import subprocess
 import sys
 
+import scenes
 from tqdm import tqdm
 
 here = pathlib.Path(__file__).resolve().parent
 heapProgram = here.relative_to(here.parents[2]) / 'heap.py'
-
-
-class Failed(Exception):
-	"""A process ended without a result; what it printed last says why."""
 
 
 def overlayOf(checkout):
@@ -35,11 +31,10 @@ def run(checkout, program, core, **request):
 	"""What one process of that checkout's plug-in finds, on one core."""
 	environment = dict(os.environ, OMP_NUM_THREADS='1', YADE_PREFIX=str(overlayOf(checkout)))
 	command = ['taskset', '-c', str(core), sys.executable, str(program), json.dumps(request)]
-	output = subprocess.run(command, env=environment, capture_output=True, text=True)
-	lines = [line for line in output.stdout.splitlines() if line.startswith('RESULT ')]
-	if output.returncode or not lines:
-		raise Failed(f'{checkout}: exit code {output.returncode}: ' + ' '.join((output.stderr or output.stdout).split('\n')[-4:]))
-	return json.loads(lines[-1][len('RESULT ') :])
+	try:
+		return scenes.resultOf(command, environment)
+	except scenes.SceneFailed as error:
+		raise scenes.SceneFailed(f'{checkout}: {error}') from None
 
 
 def perBody(found):

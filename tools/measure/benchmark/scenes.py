@@ -20,6 +20,18 @@ class SceneFailed(Exception):
 	"""A process of heap.py ended without a result; what it printed last says why."""
 
 
+def resultOf(command, environment, limit=None):
+	"""What a process prints after RESULT, within so many seconds."""
+	try:
+		output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=limit)
+	except subprocess.TimeoutExpired:
+		raise SceneFailed(f'no result after {limit} s') from None
+	lines = [line for line in output.stdout.splitlines() if line.startswith('RESULT ')]
+	if output.returncode or not lines:
+		raise SceneFailed(f'exit code {output.returncode}: ' + ' '.join((output.stderr or output.stdout).split('\n')[-4:]))
+	return json.loads(lines[-1][len('RESULT ') :])
+
+
 class Scenes:
 	"""Runs heap.py, one process a heap, on one core (two with two threads). A peer that fails is named once, and left out.
 
@@ -38,14 +50,7 @@ class Scenes:
 		command += [sys.executable, str(here / 'heap.py'), json.dumps(request)]
 		environment = dict(os.environ, OMP_NUM_THREADS=str(threads), YADE_PREFIX=str(self.overlay(request.get('method', 'ours'))))
 		limit = 600 if self.quick else 4 * 3600 if request.get('number', 0) >= 1e5 else 3600
-		try:
-			output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=limit)
-		except subprocess.TimeoutExpired:
-			raise SceneFailed(f'no result after {limit} s') from None
-		lines = [line for line in output.stdout.splitlines() if line.startswith('RESULT ')]
-		if output.returncode or not lines:
-			raise SceneFailed(f'exit code {output.returncode}: ' + ' '.join((output.stderr or output.stdout).split('\n')[-4:]))
-		result = json.loads(lines[-1][len('RESULT ') :])
+		result = resultOf(command, environment, limit)
 		rows = result['rows']
 		result['perPair'] = [row['loop'] / row['pairs'] for row in rows if row['pairs']]
 		result['perContact'] = [row['loop'] / row['contacts'] for row in rows if row['contacts']]
