@@ -13,7 +13,7 @@ from ..scene.present import jointMaterials
 from ..scene.stages import sizeOf
 from .holding import isHeld, isThin, touched, unsupported
 from .unbalanced import unbalancedForces
-from .ways import posesById, waysOf
+from .ways import posesById, turnsOf, waysOf
 
 __all__ = ['NotAtRest', 'Restless', 'Unrest', 'remedy', 'told']
 
@@ -83,7 +83,6 @@ class Unrest:
 		self.sum = self.mean = self.before = np.zeros(0)
 		self.sizes = _sizes()
 		self.origin = self.began = self.last = posesById()
-		self.start = arrays().bodies
 		self.span = self.spanBefore = np.zeros(len(O.bodies))
 		"""Largest ways since the span began, and in the one before, by moving or by turning (ways.py) [m]."""
 		self.path = self.pathBefore = np.zeros(len(O.bodies))
@@ -176,12 +175,16 @@ class Unrest:
 		sliding = sorted(other for other, slides in others.items() if slides)
 		if sliding and way > away * size and span > before:
 			return 'slides', f'slides on body {sliding[0]}, by {way:.2g} m up to now'
-		turn = _turn(self.start, k)
+		turn = self._turn(k)
 		if turn > leaning and way < math.radians(turn) * size / 10:
 			return 'moves', f'turns in place, by {turn:.0f}° up to now'
 		if turn > leaning:
 			return 'topples', f'topples: turned by {turn:.0f}°, has moved by {way:.2g} m'
 		return 'moves', f'has moved by {way:.2g} m'
+
+	def _turn(self, k):
+		"""Angle by which body k has turned since the start [°]; zero for one that is new."""
+		return math.degrees(turnsOf(self.origin.of([k]), self.last.of([k]))[0]) if k < len(self.origin.places) else 0.0
 
 
 def told(restless):
@@ -220,15 +223,6 @@ def _couldHang(k):
 
 def _sizes():
 	return np.array([0.0 if body is None else sizeOf(body.id) for body in (O.bodies[k] for k in range(len(O.bodies)))])
-
-
-def _turn(before, k):
-	"""Angle by which body k has turned since these arrays of bodies [°]; zero for one that is new."""
-	row = np.flatnonzero(before.ids == k)
-	if not len(row):
-		return 0.0
-	now = O.bodies[k].state.ori
-	return math.degrees(2 * math.acos(min(1.0, abs(float(np.dot(before.orientations[row[0]], [now[i] for i in range(4)]))))))
 
 
 def _ways(before, now):

@@ -8,7 +8,7 @@ from yade import O
 
 from ..measures.arrays import arrays
 
-__all__ = ['Poses', 'posesById', 'waysOf']
+__all__ = ['Poses', 'posesById', 'turnsOf', 'waysOf']
 
 
 class Poses(NamedTuple):
@@ -29,9 +29,14 @@ def posesById():
 	return Poses(places, orientations)
 
 
-def waysOf(before, now, sizes):
-	"""(n,) way of the centre, or of a point half a size away from it by the body's turn, whichever is larger [m]."""
+def turnsOf(before, now):
+	"""(n,) angles of the turns [rad]."""
 	(v, w), (u, s) = ((poses.orientations[:, :3], poses.orientations[:, 3:]) for poses in (before, now))
 	sine = np.linalg.norm(w * u - s * v - np.cross(v, u), axis=1)  # of half the angle: its cosine alone has half of the digits
 	cosine = np.abs((v * u).sum(axis=1) + (w * s)[:, 0])
-	return np.maximum(np.linalg.norm(now.places - before.places, axis=1), np.arctan2(sine, cosine) * sizes)
+	return 2 * np.arctan2(sine, cosine)
+
+
+def waysOf(before, now, sizes):
+	"""(n,) way of the centre, or of a point half a size away from it by the body's turn, whichever is larger [m]."""
+	return np.maximum(np.linalg.norm(now.places - before.places, axis=1), turnsOf(before, now) * sizes / 2)
