@@ -45,6 +45,18 @@ struct ClosureOfJoint {
 	}
 };
 
+/// By how much the dilation of its joint holds the bodies of a contact apart [m].
+struct WideningOfJoint {
+	Real present = 0; ///< for which the contact was found in this step
+	Real next    = 0;
+
+	template <class Archive> void serialize(Archive& archive, unsigned int)
+	{
+		archive& boost::serialization::make_nvp("present", present);
+		archive& boost::serialization::make_nvp("next", next);
+	}
+};
+
 /// What gives a contact whose bodies hardly move.
 struct LinearOfContact {
 	polytope::LinearContact linear;
@@ -67,6 +79,7 @@ public:
 	using PlaneEnds = Seldom<std::vector<Real>>;
 	using Closure   = Seldom<ClosureOfJoint>;
 	using Linear    = Seldom<LinearOfContact>;
+	using Widening  = Seldom<WideningOfJoint>;
 
 	/// Made when first needed; not saved.
 	Seldom<StandIn> standIn;
@@ -90,8 +103,17 @@ public:
 		contactPoint       = bondPoint;
 		energyPerStiffness = bondEnergyPerStiffness;
 	}
-	/// Whether the bodies overlap. The area of a pair that the query found apart is that of grown bodies.
-	bool                touches() const { return penetrationDepth > 0 && statusCode != int(polytope::ContactStatus::Separated); }
+	/// The law's dilation, from the next step on: the contact is that of bodies which are nearer by it, so that pressure, area and point are those of the
+	/// springs between faces that dilation holds apart.
+	void widenBy(Real dilation)
+	{
+		if (dilation > 0 || widened.get()) widened.make().next = dilation;
+	}
+	Real widening() const { return widened.get() ? widened.get()->present : Real(0); }
+	/// How far the joint is closed: the bodies' overlap, and what its dilation adds to it [m].
+	Real closedBy() const { return penetrationDepth + widening(); }
+	/// Whether it is. The area of a pair that the query found apart is that of grown bodies.
+	bool                touches() const { return closedBy() > 0 && statusCode != int(polytope::ContactStatus::Separated); }
 	polytope::FaceForce faceForce() const { return polytope::FaceForce(faceForceCode); }
 	std::string         statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
@@ -152,6 +174,7 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		((Linear, linear, , (Attr::readonly | Attr::hidden), "The contact near the pose in which it was last computed in full"))
 		((StoredOutline, outline, , (Attr::readonly | Attr::hidden), "Outline of the contact area, for rock joints between polyhedra"))
 		((Closure, closure, , (Attr::readonly | Attr::hidden), "Normal law of its rock joint; none: a linear spring"))
+		((Widening, widened, , (Attr::readonly | Attr::hidden), "How far the dilation of its rock joint holds the bodies apart"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
 		.add_property("outline", &PolytopeGeom::outlineCorners, "Corners of the contact area as seen along the normal, a list of points [m] "

@@ -133,6 +133,16 @@ namespace {
 		prefetch::fetch(geom->outline.corners(), std::size_t(geom->outline.count()) * sizeof(polytope::Vector2));
 	}
 
+	/// Where body 2 is for a contact whose joint dilation holds apart, from where it is [m]: so much nearer along the last normal. From now on.
+	Vector3r takeDilation(const Interaction& contact)
+	{
+		auto* const geom = static_cast<PolytopeGeom*>(contact.geom.get());
+		if (!geom || !geom->widened.get()) return Vector3r::Zero();
+		WideningOfJoint& widened = *geom->widened.get();
+		widened.present          = widened.next;
+		return -widened.present * geom->normal;
+	}
+
 	MotionInStep motionAt(const PolytopeGeom& geom, const State& state1, const State& state2, const Vector3r& shift2,
 	        const Scene& scene, const Interaction& c)
 	{
@@ -169,8 +179,9 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	const bool                                     wasReal = c->isReal();
 	if (convex1.dimension() != convex2.dimension()) return failed(c);
 	const Vector3r             centre2   = state2.pos + shift2 - frame1.origin;
+	const Vector3r             nearer    = centre2 + takeDilation(*c);
 	const Matrix3r             rotation2 = state2.ori.toRotationMatrix();
-	const polytope::PlacedPair pair { convex1, frame1.rotation, convex2, rotation2, centre2 };
+	const polytope::PlacedPair pair { convex1, frame1.rotation, convex2, rotation2, nearer };
 	if (!c->geom && !force && isApart(pair, workspace, *c)) return false;
 
 	auto& geom = geometry(c);
@@ -229,6 +240,9 @@ bool PolytopeGeomFunctor::findInternalFaces(const TouchingPair& pair, const poly
 bool PolytopeGeomFunctor::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
         const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
+	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) {
+		if (auto* const widened = known->widened.get()) widened->present = 0; // the law adds it to the depth
+	}
 	const Real rest  = math::abs(result.normal.squaredNorm() - 1);
 	const Real sum   = result.point.sum() + result.depth + result.area + result.energy + result.turningArm;
 	const bool sound = rest <= Real(polytope::tolerance::orthogonal) && math::isfinite(sum) && result.area >= 0
@@ -264,8 +278,10 @@ bool PolytopeGeomFunctor::write(const polytope::ContactResult& result, const Vec
 	}
 	geom.energyPerStiffness = geom.faceForce() != polytope::FaceForce::AtCentre ? result.energy : Real(-1);
 	ContactSizes sizes { geom.refR1, geom.refR2 };
+	const Real     closed = result.depth, wider = geom.widening();
+	const Vector3r middle = origin1 + result.point + wider / 2 * geom.normal; // of the gap
 	if (!wasReal) sizes = contactSizes(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
-	geom.doIg2Work(origin1 + result.point, result.depth, sizes.first, sizes.second, state1, state2, scene, c, result.normal, shift2,
+	geom.doIg2Work(middle, closed - wider, sizes.first, sizes.second, state1, state2, scene, c, result.normal, shift2,
 	        !wasReal, /*avoidGranularRatcheting*/ false);
 	return true;
 }

@@ -29,8 +29,9 @@ namespace {
 		};
 		if (!find()) return nullptr;
 		auto& geom = static_cast<PolytopeGeom&>(*made->geom);
-		if (whole.closure.get()) { // by which force and energy depend on the surface
+		if (whole.closure.get() || whole.widened.get()) { // by which the contact depends on the joint
 			geom.closure = whole.closure;
+			geom.widened = whole.widened;
 			if (!find()) return nullptr;
 		}
 		geom.stiffnessRule      = whole.stiffnessRule;
@@ -104,7 +105,7 @@ bool continueBetween(Scene& scene, const Interaction& whole, const Body& whole1,
 {
 	const auto& wholeGeom = static_cast<const PolytopeGeom&>(*whole.geom);
 	const auto& wholePhys = static_cast<const RockJointPhys&>(*whole.phys);
-	const auto  made      = contactOf(scene, part1, part2, wholeGeom, /*force*/ !wholeGeom.touches() || wholePhys.bond);
+	const auto  made      = contactOf(scene, part1, part2, wholeGeom, /*force*/ !(wholeGeom.touches() && wholeGeom.penetrationDepth > 0) || wholePhys.bond);
 	if (!made) return false;
 	auto& geom = static_cast<PolytopeGeom&>(*made->geom);
 	if (!(geom.normal.dot(wholeGeom.normal) > 0)) return false; // another side of the parts

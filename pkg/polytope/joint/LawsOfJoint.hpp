@@ -23,6 +23,7 @@ struct LawsOfJoint {
 	Real                           reduction      = 1; ///< tan φ is divided by it
 	Real                           slipPath       = 0; ///< all slip so far, whatever its direction [m]
 	Real                           dilation       = 0; ///< of the next step [m]
+	Real                           steepness      = 0; ///< tangent of the dilation angle of the last slip
 	Vector3r                       slipBefore     = Vector3r::Zero(); ///< this step's; not saved
 	Real                           stiffening     = 1; ///< tangent over initial stiffness for which the time step was last computed
 
@@ -39,6 +40,7 @@ struct LawsOfJoint {
 		visit("reduction", reduction);
 		visit("slipPath", slipPath);
 		visit("dilation", dilation);
+		visit("steepness", steepness);
 		visit("stiffening", stiffening);
 	}
 };

@@ -112,7 +112,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	std::optional<DampedPair> damped;
 	if (damps()) damped.emplace(atBond, phys, stiffnessSums);
 	const bool     yields       = bond.yields() && bond.plasticWork() > 0; // then it is not damped
-	const Real     viscous      = normalDamping > 0 && !yields ? normalDamper(atBond, *damped, phys, elastic) : Real(0);
+	const Real     viscous      = normalDamping > 0 && !yields ? normalDamper(atBond, *damped, phys, elastic, 0) : Real(0);
 	const Vector3r shearViscous = shearDamping > 0 ? shearDamper(atBond, *damped, phys, elastic + viscous, shear) : Vector3r::Zero();
 	phys.isSliding              = false;
 	phys.normalViscous          = viscous * normal;

@@ -127,12 +127,14 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::takePart(const Pair& pair, con
 		if (one.moves) stiffnessSums.add(one.mover.id, one.otherIs, phys.dampedStiffness, pair.geom.normal);
 }
 
-/// Viscous normal force on body 2, along the normal; is not tensile in a joint without tensile strength.
+/// Viscous normal force on body 2, along the normal: against the closing of its spring, which dilation that grows by `rising` in this step takes part in.
+/// Is not tensile in a joint without tensile strength.
 Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::normalDamper(
-        const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real elastic) const
+        const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real elastic, Real rising) const
 {
 	const Vector3r& normal       = pair.geom.normal;
-	const Real      viscous      = -damped.damper(normalDamping, phys.kn, normal) * normal.dot(pair.velocity());
+	const Real      opening      = normal.dot(pair.velocity()) - rising / damped.dt;
+	const Real      viscous      = -damped.damper(normalDamping, phys.kn, normal) * opening;
 	const bool      takesTension = phys.presentTensileStrength() > 0;
 	return takesTension ? viscous : math::max(viscous, -elastic);
 }

@@ -25,8 +25,16 @@ namespace {
 
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, shared_ptr<IPhys>& iphys, Interaction* contact)
 {
-	auto& geom = static_cast<PolytopeGeom&>(*igeom);
-	auto& phys = static_cast<RockJointPhys&>(*iphys);
+	auto&      geom   = static_cast<PolytopeGeom&>(*igeom);
+	auto&      phys   = static_cast<RockJointPhys&>(*iphys);
+	const bool goesOn = act(geom, phys, contact);
+	geom.widenBy(phys.dilationOfSlip());
+	return goesOn;
+}
+
+/// Forces of this step; false ends the contact.
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::act(PolytopeGeom& geom, RockJointPhys& phys, Interaction* contact)
+{
 	if (const Interaction* const next = prefetch::readable(*contact, *scene)) fetchLayers(*next);
 	if (damps()) {
 		stiffnessSums.begin(*scene);
@@ -43,12 +51,13 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	if (phys.mayActAsBond() && actsAsBond(*contact, geom, phys, last, elasticShear)) return true;
 	Shear shear(pair, phys, elasticShear);
 
-	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it, and one whose strength
-	// depends on the stress has it while dilation holds it open: the last overlap of a tilted face was a part of it
-	if (geom.contactArea > 0 && (geom.touches() || phys.contactArea == 0 || phys.ownHistory())) phys.contactArea = geom.contactArea;
+	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it
+	if (geom.contactArea > 0 && (geom.touches() || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
 	if (phys.laws.get()) beginOwnLaws(phys, geom);
 	phys.setStiffnesses(geom.share);
-	if (phys.tangensOfDilationAngle > 0) phys.dilation = math::min(phys.tangensOfDilationAngle * phys.slip.norm(), phys.dilationLimit);
+	phys.dilation       = phys.dilationOfSlip();
+	const Real widening = phys.dilation - last.dilation;
+	const Real rising   = widening == 0 ? Real(0) : risingWithSlip(pair, phys, shear, widening);
 	shear.adapt(phys);
 	shear.move(geom.shearIncrement());
 
@@ -63,7 +72,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	std::optional<DampedPair> damped;
 	if (damps()) damped.emplace(pair, phys, stiffnessSums);
 	// what yields is not damped, as what slides is not
-	const Real viscous = normalDamping > 0 && work.plastic == 0 ? normalDamper(pair, *damped, phys, elasticNormal) : Real(0);
+	const Real viscous = normalDamping > 0 && work.plastic == 0 ? normalDamper(pair, *damped, phys, elasticNormal, rising) : Real(0);
 	const Real normal  = elasticNormal + viscous;
 
 	// a joint pulled straight open has no shear but what rounding of the normal leaves: displacements below the resolution of positions
@@ -89,16 +98,28 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 
 	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
-		const Real lifting  = (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
+		const Real ofDamper = (last.normalViscous + viscous) / 2;
+		const Real lifting  = (last.elasticNormal + elasticNormal) / 2 * widening + ofDamper * rising;
 		work.fractured      = work.fractured || last.wasBond || last.actedAsBond;
 		work.plastic        = last.wasBond ? Real(0) : work.plastic + shear.loss() - lifting;
-		work.normalDamping  = -(last.normalViscous + viscous) / 2 * geom.normal.dot(pair.velocity()) * scene->dt;
+		work.normalDamping  = -ofDamper * (geom.normal.dot(pair.velocity()) * scene->dt - rising);
 		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
 		work.shearDamping   = shear.dampingLoss(last.shearViscous, last.twistingViscous);
 		work.stored         = phys.normalEnergy(geom, elasticNormal) + shear.energy();
 		book(pair, phys, last, work);
 	}
 	return true;
+}
+
+/// What of the bodies' parting in this step is the joint's widening and not the opening of its spring: the damper leaves that out, in a joint that slides
+/// up its asperities. From the velocity, since the slip that there is depends on how the shear spring's force changes with the damper's own, by which the two
+/// would build each other up; and never more than what the bodies part by, so that the damper is only against motion that there is.
+Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::risingWithSlip(
+        const Pair& pair, const RockJointPhys& phys, const Shear& shear, Real widening) const
+{
+	const Real dt = scene->dt, expected = phys.isSliding ? Real(phys.rising(shear.velocity()) * dt) : widening;
+	const Real parting = pair.geom.normal.dot(pair.velocity()) * dt;
+	return math::max(math::min(expected, Real(0)), math::min(parting, math::max(expected, Real(0))));
 }
 
 /// Brings the trial shear force back to the strength; an intact joint fails there. False if that leaves it open.

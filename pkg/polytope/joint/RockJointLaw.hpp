@@ -33,7 +33,7 @@ public:
 	R"""(Elastic joint with Mohr-Coulomb strength, after [Hart1988]_ and [Boon2012]_.
 
 * Normal force $f_n=k_n(u_n+u_d)$, with the :yref:`penetrationDepth<ScGeom.penetrationDepth>` $u_n$ and the :yref:`dilation<RockJointPhys.dilation>`
-  $u_d$. Compression without limit; tension while the joint is intact and $-f_n\le\sigma_t A$. When $u_n+u_d<0$ otherwise, the contact ends; one that
+  $u_d$; the contact is found for bodies that are nearer by $u_d$ (docs/contact-force.md). Compression without limit; tension while the joint is intact and $-f_n\le\sigma_t A$. When $u_n+u_d<0$ otherwise, the contact ends; one that
   has lost its strength, or has slipped and dilates, is kept without force as long as the gap is smaller than the bodies, so that it regains no
   strength and keeps its dilation when it closes. The area is that of the last overlap while the bodies are apart.
 * An intact joint with tensile strength and a stiffness per area holds over the whole area of its two faces, however it is tilted: from the step in
@@ -60,7 +60,7 @@ public:
   $k/\sum_jk_j(\vec n_j\cdot\vec n)^2$, as they were in the last step; 1 for a contact that is alone, so that the contacts of a body on many pieces
   damp as one does. At its first step a contact has the part of the area that the body shows. No damper takes more than the relative momentum at the
   contact point, $c\Delta t\le1/(w_1/s_1+w_2/s_2)$ with $w$ the velocity that either body has there from an impulse of one. A joint that cannot take
-  tension is not pulled by the damper: $f_n$ and the viscous force together are at least 0. The sum enters the Coulomb strength. Shear damping acts
+  tension is not pulled by the damper: $f_n$ and the viscous force together are at least 0. It leaves out what a sliding joint rises by its dilation. The sum enters the Coulomb strength. Shear damping acts
   while the joint sticks, on sliding and on turning about the normal, and no further than to the strength. An explicit damper shortens the stable time
   step to $2(\sqrt{1+\zeta^2}-\zeta)\sqrt{m/k}$, which :yref:`GlobalStiffnessTimeStepper` neglects, as it neglects the rotation of a body about a
   contact off its centre, with stiffness $k_n$: keep its *timestepSafetyCoefficient* at 0.5 or lower for $k_s<0.3k_n$ or $\zeta>0.5$.
@@ -74,7 +74,7 @@ less the work of dilation), *normDampDissip* (viscous, normal and rocking) and *
 tension), and *nonconservative*: what the contact forces took from the bodies (negative: gave to them) beyond all these. With the *surface*
 :yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>` the normal force of every pair is the gradient of an energy, and the term is
 zero to second order in the time step; with *boon2012* it is not, and energy can be created, which is counted here. Work is taken over each step with
-the mean of the forces at both ends; the sum of all terms is constant to rounding with the kinetic energy
+the mean of the forces at both ends; the sum of all terms is constant to rounding, while the time step is, with the kinetic energy
 $\frac12 m\vec v_{n-1/2}\cdot\vec v_{n+1/2}$, from which :yref:`NewtonIntegrator`'s own, $\frac12 m v_{n-1/2}^2$, differs by half a step's work,
 $\frac12\vec f\cdot\vec v\Delta t$.)""",
 		((Real, normalDamping, 0, Attr::triggerPostLoad, "Viscous damping in the normal direction, fraction $\\zeta$ of critical [-], at "
@@ -102,9 +102,11 @@ private:
 	struct DampedBody;
 	struct DampedPair;
 	bool     damps() const { return normalDamping > 0 || shearDamping > 0 || rockingDamping > 0; }
+	bool     act(PolytopeGeom& geom, RockJointPhys& phys, Interaction* contact);
 	bool     actsAsBond(Interaction& contact, PolytopeGeom& geom, RockJointPhys& phys, const Last& last, const Vector3r& elasticShear);
+	Real     risingWithSlip(const Pair& pair, const RockJointPhys& phys, const Shear& shear, Real widening) const;
 	bool     limitShear(RockJointPhys& phys, Real normal, Shear& shear) const;
-	Real     normalDamper(const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real elastic) const;
+	Real     normalDamper(const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real elastic, Real rising) const;
 	Vector3r shearDamper(
 	        const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real normal, const Vector3r& shear) const;
 	Vector3r rockingDamper(const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real normal) const;

@@ -18,6 +18,15 @@ Real RockJointPhys::stiffen(Real overlap)
 	return tangent;
 }
 
+Real RockJointPhys::ownDilation() const { return laws.get()->dilation; }
+
+Real RockJointPhys::rising(const Vector3r& velocity) const
+{
+	const Real steepness = hasOwnStrength() ? laws.get()->steepness : dilation < dilationLimit ? tangensOfDilationAngle : Real(0);
+	const Real far       = slip.norm();
+	return steepness * (far > 0 ? Real(slip.dot(velocity) / far) : velocity.norm());
+}
+
 bool RockJointPhys::ownHistory() const { return laws.get() && laws.get()->slipPath > 0; }
 
 Real RockJointPhys::energyPerStiffness(Real overlap) const
@@ -42,12 +51,10 @@ void RockJointPhys::setReduction(Real value)
 		throw std::invalid_argument("reduction: belongs to a shear law (RockJointMat.strength), which this joint does not have");
 }
 
-/// What it has before this step's motion: dilation of the slip up to here, shear stiffness at the last stress.
+/// What it has before this step's motion: shear stiffness at the last stress.
 void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::beginOwnLaws(RockJointPhys& phys, const PolytopeGeom& geom) const
 {
 	LawsOfJoint& laws = phys.laws.make();
-	if (laws.law() == ShearLaw::MohrCoulomb) return;
-	phys.dilation = laws.dilation;
 	if (laws.law() != ShearLaw::ContinuouslyYielding) return;
 	laws.yielding.turn([&](Vector3r& direction) { turnWithContact(geom, direction); });
 	const Real elastic = (phys.normalForce - phys.normalViscous).dot(geom.normal);
@@ -97,7 +104,8 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::endOwnLaws(RockJointPhys& phys
 		laws.yielding.wear(way);
 		angle = laws.yielding.dilationAngle(shear.force().norm() / normal);
 	}
-	laws.dilation = math::max(Real(0), Real(phys.dilation + (phys.slip.norm() - laws.slipBefore.norm()) * math::tan(angle)));
+	laws.steepness = math::tan(angle);
+	laws.dilation  = math::max(Real(0), Real(phys.dilation + (phys.slip.norm() - laws.slipBefore.norm()) * laws.steepness));
 }
 
 } // namespace yade

@@ -59,7 +59,7 @@ Real RockJointPhys::yieldInTension(Real& normalForce)
 
 Real RockJointPhys::normalEnergy(const PolytopeGeom& geom, Real force) const
 {
-	if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && dilation == 0 && restOverlap == 0)
+	if (geom.energyPerStiffness >= 0 && geom.closedBy() > 0 && dilation == geom.widening() && restOverlap == 0)
 		return kn * geom.energyPerStiffness;
 	if (force == 0) return 0; // an open joint with a closure law, too
 	if (laws.get()) return kn * energyPerStiffness(geom.penetrationDepth + dilation - restOverlap);

@@ -74,6 +74,15 @@ public:
 	}
 	/// Force of the normal spring of a joint with laws of its own (RockJointOwnLaws.cpp), while kn is that of its linear spring.
 	Real ownSpring(Real overlap) const;
+	/// Dilation of all slip up to now [m].
+	Real dilationOfSlip() const
+	{
+		if (hasOwnStrength()) return ownDilation();
+		return tangensOfDilationAngle > 0 ? math::min(Real(tangensOfDilationAngle * slip.norm()), dilationLimit) : dilation;
+	}
+	Real ownDilation() const;
+	/// How fast dilation grows where the joint slides with this velocity of body 2 along it [m/s].
+	Real rising(const Vector3r& velocity) const;
 	/// Whether such a joint has slipped, or is worn.
 	bool ownHistory() const;
 	/// Energy over kn of a spring closed that far [m²].

@@ -91,26 +91,26 @@ namespace {
 	Matrix3r rockingStiffness(const PairInScene& pair, const PolytopeGeom& geom)
 	{
 		if (hasMargin(pair.body1) || hasMargin(pair.body2)) return rockingOfOutline(geom, pair.phys.kn);
-		const Real                   elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
+		const Real                   elastic = pair.phys.kn * math::max(geom.closedBy(), Real(0));
 		const Real                   force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
 		const polytope::ConvexShape* shape1  = geom.standIn.get() ? geom.standIn.get()->partner.get() : convexShapeOf(pair.body1);
 		const polytope::ConvexShape* shape2  = convexShapeOf(pair.body2);
-		if (!shape1 || !shape2 || !(geom.penetrationDepth > 0 && force > 0)) return Matrix3r::Zero(); // a sphere's point stays
+		if (!shape1 || !shape2 || !(geom.closedBy() > 0 && force > 0)) return Matrix3r::Zero(); // a sphere's point stays
 		const State &  state1 = *pair.body1.state, &state2 = *pair.body2.state;
 		const bool     wall      = !(shape1->boundingRadius() < std::numeric_limits<Real>::infinity()); // in the world's axes
 		const Matrix3r rotation1 = wall ? Matrix3r(Matrix3r::Identity()) : Matrix3r(state1.ori.toRotationMatrix()),
 		               rotation2 = state2.ori.toRotationMatrix();
-		// from the contact point
-		const Vector3r              point = pair.point();
-		const polytope::PlacedShape body1 { *shape1, state1.pos - point, rotation1 },
-		        body2 { *shape2, state2.pos + pair.shift2 - point, rotation2 };
+		// from the contact point, and so much nearer as dilation holds them apart
+		const Vector3r              point = pair.point(), nearer = geom.widening() / 2 * geom.normal;
+		const polytope::PlacedShape body1 { *shape1, state1.pos - point + nearer, rotation1 },
+		        body2 { *shape2, state2.pos + pair.shift2 - point - nearer, rotation2 };
 		if (geom.faceForce() != polytope::FaceForce::AtCentre) {
 			std::vector<polytope::Plane> planes;
 			polytope::addPlanesOf(body1, planes);
 			polytope::addPlanesOf(body2, planes);
 			return rockingOfOverlap(planes, geom, 2 * shape2->boundingRadius(), shape2->dimension(), pair.phys.kn);
 		}
-		return force * polytope::rockingArms(body1, body2, geom.normal, geom.penetrationDepth);
+		return force * polytope::rockingArms(body1, body2, geom.normal, geom.closedBy());
 	}
 
 	void addDampers(const PairInScene& pair, const RockJointPhys& phys, const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb& law,

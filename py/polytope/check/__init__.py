@@ -29,7 +29,7 @@ def check(O, costs=False):
 	conserve energy, polygons that meet what they cannot touch, positions and velocities that are not numbers, polytopes in the same place
 	or deep in each other, boxes without thickness, facets without an area, engines that are there twice, controllers for spheres only,
 	YADE's density scaling, bodies that have YADE's default material in place of the scene's,
-	contacts of materials that were changed since, bodies too large for a periodic cell, bonds
+	contacts of a rock joint's material with one of YADE's own, contacts of materials that were changed since, bodies too large for a periodic cell, bonds
 	whose engine is missing, numerical damping beside a moving base or a quiet boundary, water that acts too late, density, mass and size of
 	bodies, friction angles in degrees, cohesion and tensile strength in MPa, dilation above friction, stiffnesses too low for the loads,
 	joints so soft that a block topples a degree below its own angle, faces on several pieces with a stiffness for each contact, gravity

@@ -173,6 +173,7 @@ def forces(scene, loop, functor, one, other):
 	yield from unknownStiffness(scene, maker, one, other)
 	yield from withoutCore(scene, functor, one, other)
 	yield from marginsPerArea(scene, functor, maker, one, other)
+	yield from noRockJoint(scene, geom, phys, one, other)
 	law = _functor(loop.lawDispatcher, geom, phys)
 	names = f'{type(geom).__name__} and {type(phys).__name__} ({one.shape} and {other.shape})'
 	if law is None:
@@ -201,6 +202,21 @@ def forces(scene, loop, functor, one, other):
 			f"contacts of polytopes by {type(maker).__name__} have no damping, nor has NewtonIntegrator: with contactModel 'boon2012' they gain energy",
 			f"contactModel='surface', or {damper}, or NewtonIntegrator.damping above 0 (usual: 0.2)",
 		)
+
+
+def noRockJoint(scene, geom, phys, one, other):
+	"""A rock joint's material beside one of YADE's own. Spheres touch at a point, where friction is right."""
+	joints = ['RockJointMat' in kind.material for kind in (one, other)]
+	if 'Sphere' in (one.shape, other.shape) or not isinstance(geom, PolytopeGeom) or type(phys) is not yade.FrictPhys or all(joints) == any(joints):
+		return
+	joint, alone = (one, other) if joints[0] else (other, one)
+	labels = [scene.examples[kind].material.label for kind in (joint, alone)]
+	yield (
+		'no rock joint',
+		f"contacts of {joint.material} {labels[0]!r} with {alone.material} {labels[1]!r} are YADE's own: stiffness from young, friction at one point, "
+		"without the joint's stiffnesses, cohesion and laws",
+		'RockJointMat for both, if they should be joints',
+	)
 
 
 def undamped(scene, maker, law, phys, one, other):

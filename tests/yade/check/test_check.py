@@ -344,6 +344,15 @@ def testFrictMatWithThePhysicsOfRockJoints():
 	assert 'FrictMat and FrictMat' in onlyFinding('materials').seen
 
 
+def testARockJointsMaterialBesideYadesOwn():
+	scene(
+		physics=[Ip2_RockJointMat_RockJointMat_RockJointPhys(), Ip2_FrictMat_FrictMat_FrictPhys()],
+		laws=[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(), Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)],
+	)
+	O.bodies[1].material = FrictMat(density=2600, young=1e8, label='grain')
+	assert "with FrictMat 'grain' are YADE's own" in onlyFinding('no rock joint').seen
+
+
 def testLawThatIsMissing():
 	scene(laws=[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)], physics=[Ip2_FrictMat_FrictMat_MindlinPhys()])
 	loop().lawDispatcher.functors = [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()]
