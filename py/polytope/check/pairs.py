@@ -211,6 +211,8 @@ def noRockJoint(scene, geom, phys, one, other):
 		return
 	joint, alone = (one, other) if joints[0] else (other, one)
 	labels = [scene.examples[kind].material.label for kind in (joint, alone)]
+	if labels[1] == 'defaultMat':
+		return  # materials.py tells of it
 	yield (
 		'no rock joint',
 		f"contacts of {joint.material} {labels[0]!r} with {alone.material} {labels[1]!r} are YADE's own: stiffness from young, friction at one point, "

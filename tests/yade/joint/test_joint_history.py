@@ -73,7 +73,8 @@ def testAreaThatVanishesMakesNoSlip():
 	i = O.interactions[0, 1]
 	moved(body, (0, 2e-4, 0))
 	slip, elastic = i.phys.slip.norm(), i.phys.shearForce.norm() / i.phys.ks
-	assert slip > 5e-5 and slip + elastic == pytest.approx(2e-4, rel=1e-6)
+	# springs that joined as dilation, which deepens the edge, made its area grow are strained less: a part of the elastic displacement as small as that of the area
+	assert slip > 5e-5 and 2e-4 - elastic * i.phys.dilation / overlap < slip + elastic < 2e-4
 	moved(body, (0, 0, 0.9 * overlap), 400)
 	assert i.phys.contactArea == pytest.approx(0.2 * overlap, rel=0.1)
 	assert i.phys.slip.norm() + i.phys.shearForce.norm() / i.phys.ks == pytest.approx(2e-4, rel=1e-5)
@@ -207,7 +208,7 @@ def testDilationIsRememberedWhileTheJointIsOpen():
 		assert i.isReal
 		assert i.phys.slip[0] == pytest.approx(0.03, rel=1e-9) and abs(i.phys.slip[1]) < 1e-12
 		assert i.phys.dilation == pytest.approx(0.03 * tan(psi), rel=1e-9)
-		assert i.phys.normalForce[2] == pytest.approx(stiffness * (faceForce(overlap, perArea=perArea) + 0.03 * tan(psi)), rel=1e-9)
+		assert i.phys.normalForce[2] == pytest.approx(stiffness * faceForce(overlap + 0.03 * tan(psi), perArea=perArea), rel=1e-9)
 		assert i.phys.shearForce.norm() < 1e-14 * i.phys.normalForce.norm()  # rounding of the normal while it is pressed together
 
 
