@@ -36,6 +36,9 @@ constexpr double smallClosure = 0.05;
 /// is then still below 0.6 of what is stable.
 constexpr double stiffening = 2;
 
+/// Relative difference of a dilation and that of the same slip after it was turned with the contact: some roundings.
+constexpr double sameDilation = 1e-12;
+
 /// Largest friction angle of Barton's equation, dilation included [degrees]: Barton & Choubey (1977) advise not to go beyond 70°, where stresses are
 /// so low that the logarithm has no meaning.
 constexpr double steepestBarton = 70;

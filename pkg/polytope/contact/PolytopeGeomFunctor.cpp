@@ -133,7 +133,8 @@ namespace {
 		prefetch::fetch(geom->outline.corners(), std::size_t(geom->outline.count()) * sizeof(polytope::Vector2));
 	}
 
-	/// Where body 2 is for a contact whose joint dilation holds apart, from where it is [m]: so much nearer along the last normal. From now on.
+	/// How much nearer than it is body 2 counts as: by what dilation holds the joint apart, along the last normal [m]. The law's newest dilation holds
+	/// from now on.
 	Vector3r takeDilation(const Interaction& contact)
 	{
 		auto* const geom = static_cast<PolytopeGeom*>(contact.geom.get());
@@ -277,12 +278,12 @@ bool PolytopeGeomFunctor::write(const polytope::ContactResult& result, const Vec
 		if (linear->linear.known) geom.outline.keep();
 	}
 	geom.energyPerStiffness = geom.faceForce() != polytope::FaceForce::AtCentre ? result.energy : Real(-1);
-	ContactSizes sizes { geom.refR1, geom.refR2 };
+	ContactSizes   sizes { geom.refR1, geom.refR2 };
 	const Real     closed = result.depth, wider = geom.widening();
 	const Vector3r middle = origin1 + result.point + wider / 2 * geom.normal; // of the gap
 	if (!wasReal) sizes = contactSizes(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
-	geom.doIg2Work(middle, closed - wider, sizes.first, sizes.second, state1, state2, scene, c, result.normal, shift2,
-	        !wasReal, /*avoidGranularRatcheting*/ false);
+	geom.doIg2Work(middle, closed - wider, sizes.first, sizes.second, state1, state2, scene, c, result.normal, shift2, !wasReal,
+	        /*avoidGranularRatcheting*/ false);
 	return true;
 }
 

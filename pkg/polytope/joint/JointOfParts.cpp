@@ -105,7 +105,8 @@ bool continueBetween(Scene& scene, const Interaction& whole, const Body& whole1,
 {
 	const auto& wholeGeom = static_cast<const PolytopeGeom&>(*whole.geom);
 	const auto& wholePhys = static_cast<const RockJointPhys&>(*whole.phys);
-	const auto  made      = contactOf(scene, part1, part2, wholeGeom, /*force*/ !(wholeGeom.touches() && wholeGeom.penetrationDepth > 0) || wholePhys.bond);
+	const auto  made      = contactOf(
+                scene, part1, part2, wholeGeom, /*force*/ !(wholeGeom.touches() && wholeGeom.penetrationDepth > 0) || wholePhys.bond);
 	if (!made) return false;
 	auto& geom = static_cast<PolytopeGeom&>(*made->geom);
 	if (!(geom.normal.dot(wholeGeom.normal) > 0)) return false; // another side of the parts

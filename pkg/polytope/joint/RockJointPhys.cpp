@@ -5,6 +5,8 @@
 
 #include <core/Scene.hpp>
 
+#include <src/joint/JointTolerances.hpp>
+
 namespace yade {
 
 POLYTOPE_CLASSES((RockJointPhys));
@@ -59,8 +61,9 @@ Real RockJointPhys::yieldInTension(Real& normalForce)
 
 Real RockJointPhys::normalEnergy(const PolytopeGeom& geom, Real force) const
 {
-	if (geom.energyPerStiffness >= 0 && geom.closedBy() > 0 && dilation == geom.widening() && restOverlap == 0)
-		return kn * geom.energyPerStiffness;
+	// of the geometry's own dilation; the joint's is that of a slip which has been turned since
+	const bool ofGeometry = math::abs(dilation - geom.widening()) <= Real(polytope::tolerance::sameDilation) * dilation;
+	if (geom.energyPerStiffness >= 0 && geom.closedBy() > 0 && ofGeometry && restOverlap == 0) return kn * geom.energyPerStiffness;
 	if (force == 0) return 0; // an open joint with a closure law, too
 	if (laws.get()) return kn * energyPerStiffness(geom.penetrationDepth + dilation - restOverlap);
 	return energyOfSpring(force * force, kn);

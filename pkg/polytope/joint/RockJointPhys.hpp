@@ -77,7 +77,7 @@ public:
 	/// Dilation of all slip up to now [m].
 	Real dilationOfSlip() const
 	{
-		if (hasOwnStrength()) return ownDilation();
+		if (laws.get() && hasOwnStrength()) return ownDilation();
 		return tangensOfDilationAngle > 0 ? math::min(Real(tangensOfDilationAngle * slip.norm()), dilationLimit) : dilation;
 	}
 	Real ownDilation() const;
