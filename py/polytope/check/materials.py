@@ -7,7 +7,7 @@ from yade import RockJointMat, RockJointPhys, _polytope
 
 from ..scene.present import isPerArea, jointMakers
 
-__all__ = ['changedMaterials', 'defaultMaterial']
+__all__ = ['changedMaterials', 'defaultMaterial', 'nameOfDefault']
 
 nameOfDefault = 'defaultMat'
 """Label of the material that YADE gives to bodies made before O.materials has any (yade.utils.defaultMaterial)."""

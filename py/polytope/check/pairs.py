@@ -10,6 +10,7 @@ from yade import Polytope, PolytopeGeom, PolytopeMarginFunctor, Shape
 from ..scene.ownFunctors import ownClasses, ownContactsOf
 from ..scene.present import contactSettings
 from .extensions import contactsToChoose, marginsPerArea, unknownStiffness, withoutCore
+from .materials import nameOfDefault
 
 __all__ = ['notPeriodicLaws', 'pairFindings', 'unsuitedLaws']
 
@@ -211,7 +212,7 @@ def noRockJoint(scene, geom, phys, one, other):
 		return
 	joint, alone = (one, other) if joints[0] else (other, one)
 	labels = [scene.examples[kind].material.label for kind in (joint, alone)]
-	if labels[1] == 'defaultMat':
+	if labels[1] == nameOfDefault:
 		return  # materials.py tells of it
 	yield (
 		'no rock joint',

@@ -432,7 +432,7 @@ def testDilationWidensTheJointBySlip():
 		O.step()
 		opening = min(slip * tan(psi), limit)  # slip up to the last step
 		assert i.phys.dilation == pytest.approx(opening, rel=1e-12)
-		assert i.phys.normalForce[2] == pytest.approx(stiffness * faceForce(overlap + opening), rel=1e-9)
+		assert i.phys.normalForce[2] == pytest.approx(stiffness * faceForce(overlap + opening), rel=1e-12)
 		if i.phys.isSliding:
 			assert i.phys.shearForce.norm() == pytest.approx(i.phys.normalForce.norm() * tan(0.5), rel=1e-12)
 		slip = i.phys.slip.norm()
