@@ -32,17 +32,11 @@ namespace {
 		Real extent() const { return (high - low).maxCoeff(); }
 	};
 
-	/// Highest speed of a point of one against one of the other.
-	Real relativeSpeed(const Group& one, const Group& other)
-	{
-		const Vector3 most = (one.fastest - other.slowest).cwiseMax(other.fastest - one.slowest);
-		return most.norm() + one.spin + other.spin;
-	}
-
 	class Search {
 	public:
-		Search(std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below)
-		        : bodies_(std::move(bodies)), fraction_(fraction), horizon_(horizon), change_(change)
+		Search(std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below,
+		        const LimitOfTwo& limitOfTwo)
+		        : bodies_(std::move(bodies)), fraction_(fraction), horizon_(horizon), change_(change), limitOfTwo_(limitOfTwo)
 		{
 			limit_.step = below;
 		}
@@ -112,6 +106,13 @@ namespace {
 			return int(groups_.size()) - 1;
 		}
 
+		/// Highest speed of a point of one against one of the other.
+		Real relativeSpeed(const Group& one, const Group& other) const
+		{
+			const Vector3 most = (one.fastest - other.slowest).cwiseMax(other.fastest - one.slowest);
+			return most.norm() + one.spin + other.spin + (limitOfTwo_ ? change_ : Real(0));
+		}
+
 		/// Whether the boxes may overlap until the horizon: along each axis, at some time for a branch, at the same time for single bodies.
 		bool mayMeet(const Group& one, const Group& other) const
 		{
@@ -139,7 +140,10 @@ namespace {
 			if (!one.free && !other.free) return;
 			const Real speed = relativeSpeed(one, other), way = fraction_ * std::min(one.radius, other.radius);
 			if (!(way <= limit_.step * speed) || !(speed > 0) || !mayMeet(one, other)) return;
-			if (one.single() && other.single()) return take(way / speed, one, other);
+			if (one.single() && other.single()) {
+				const int id1 = bodies_[std::size_t(one.first)].id, id2 = bodies_[std::size_t(other.first)].id;
+				return take(limitOfTwo_ ? limitOfTwo_(id1, id2) : Real(way / speed), one, other);
+			}
 			if (other.single() || (!one.single() && one.extent() >= other.extent())) {
 				const int first = one.first, second = one.second;
 				meet(first, b);
@@ -172,6 +176,7 @@ namespace {
 		std::vector<MovingBox> bodies_;
 		std::vector<Group>     groups_;
 		Real                   fraction_, horizon_, change_;
+		const LimitOfTwo&      limitOfTwo_;
 		ApproachLimit          limit_;
 	};
 
@@ -179,7 +184,13 @@ namespace {
 
 ApproachLimit approachLimit(std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below)
 {
-	return Search(std::move(bodies), fraction, horizon, change, below).find();
+	return Search(std::move(bodies), fraction, horizon, change, below, LimitOfTwo()).find();
+}
+
+ApproachLimit approachLimit(std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below,
+        const LimitOfTwo& limitOfTwo)
+{
+	return Search(std::move(bodies), fraction, horizon, change, below, limitOfTwo).find();
 }
 
 } // namespace polytope

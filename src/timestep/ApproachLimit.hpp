@@ -3,6 +3,7 @@
 
 #include "numbers/Real.hpp"
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -36,5 +37,11 @@ struct ApproachLimit {
 /// \param below    longer limits need not be found [s]
 ApproachLimit approachLimit(
         std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below);
+
+/// The same with the limit that a function gives for the ids of two bodies which may come nearer by the fraction within `below`, with the change of their
+/// velocities, too.
+using LimitOfTwo = std::function<Real(int id1, int id2)>;
+ApproachLimit approachLimit(std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below,
+        const LimitOfTwo& limitOfTwo);
 
 } // namespace polytope

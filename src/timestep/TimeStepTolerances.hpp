@@ -30,4 +30,18 @@ constexpr double rockingShare = 0.5;
 /// the scene then falls for a time that is shorter or longer by up to this part, until the next call.
 constexpr double periodStep = 0.01;
 
+/// Growth of a closing joint's stiffness in one step. A hyperbola closes by a tenth of its maximum closure in a step then from its beginning, and by
+/// a tenth of what is left later. Undamped collisions keep their energy to some per cent then, and to a sixth where they just reach the end of the law.
+constexpr double closingGrowth = 1.23;
+
+/// Halvings by which the way is found in which that happens: to a millionth.
+constexpr int closingHalvings = 20;
+
+/// At most so many places of two bodies are looked at in the time until the step is found anew, in which they move against each other by the smaller
+/// one's inscribed radius from place to place if that is enough.
+constexpr int closingPlaces = 16;
+
+/// × the time to a place: before it, for how fast they close there.
+constexpr double closingDifference = 1e-4;
+
 } // namespace polytope::tolerance

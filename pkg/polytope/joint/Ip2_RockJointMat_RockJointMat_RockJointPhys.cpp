@@ -81,10 +81,7 @@ namespace {
 	/// \param angle its friction angle [rad]
 	void takeLaws(RockJointPhys& phys, const RockJointMat& m1, const RockJointMat& m2, Real normal, Real shear, Real angle)
 	{
-		if (m1.closure && m2.closure) {
-			const auto law1 = m1.closure->law(normal), law2 = m2.closure->law(normal);
-			if (law1.isLike(law2)) phys.laws.make().closure = polytope::ClosureLaw::between(law1, law2);
-		}
+		if (const auto closure = closureOfJoint(m1, m2, normal)) phys.laws.make().closure = *closure;
 		const JointStrength *const s1 = m1.strength.get(), *const s2 = m2.strength.get();
 		const auto *const        rough1    = dynamic_cast<const BartonBandisStrength*>(s1),
 		                  *const rough2    = dynamic_cast<const BartonBandisStrength*>(s2);

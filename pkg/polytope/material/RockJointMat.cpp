@@ -123,6 +123,14 @@ void RockJointMat::refuseForLaws() const
 		refuse("frictionAngle", "must not be above initialFrictionAngle of the ContinuouslyYieldingStrength");
 }
 
+std::optional<polytope::ClosureLaw> closureOfJoint(const RockJointMat& side1, const RockJointMat& side2, Real stiffness)
+{
+	if (!side1.closure || !side2.closure) return std::nullopt;
+	const auto law1 = side1.closure->law(stiffness), law2 = side2.closure->law(stiffness);
+	if (!law1.isLike(law2)) return std::nullopt;
+	return polytope::ClosureLaw::between(law1, law2);
+}
+
 StiffnessRule stiffnessRuleOf(const Material& material1, const Material& material2)
 {
 	const auto *joint1 = dynamic_cast<const RockJointMat*>(&material1), *joint2 = dynamic_cast<const RockJointMat*>(&material2);

@@ -6,6 +6,8 @@
 #include "material/JointLaws.hpp"
 #include "material/StiffnessRules.hpp"
 
+#include <optional>
+
 namespace yade {
 
 class RockJointMat : public FrictMat {
@@ -98,6 +100,9 @@ private:
 	Checked checked_ { checkedOnes() };
 };
 REGISTER_SERIALIZABLE(RockJointMat);
+
+/// Closure law of a joint between these sides, which has this normal stiffness [Pa/m or N/m]; none unless both have one of the same kind.
+std::optional<polytope::ClosureLaw> closureOfJoint(const RockJointMat& side1, const RockJointMat& side2, Real stiffness);
 
 /// The rule for a joint of two materials: per area where both are; Unknown where one of them is no RockJointMat.
 StiffnessRule stiffnessRuleOf(const Material& material1, const Material& material2);

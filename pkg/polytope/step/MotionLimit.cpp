@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/TimeStepLimits.hpp"
 
-#include <src/timestep/ApproachLimit.hpp>
-
 #include "host/GravityOfScene.hpp"
 #include "shape/ShapeFamily.hpp"
 
@@ -10,30 +8,6 @@ namespace yade {
 namespace {
 
 	const Real infinite = std::numeric_limits<Real>::infinity();
-
-	polytope::MovingBox movingBoxOf(const Body& body, const Scene& scene)
-	{
-		const State&        state = *body.state;
-		polytope::MovingBox box;
-		box.low      = Vector3r::Constant(infinite);
-		box.high     = Vector3r::Constant(-infinite);
-		box.velocity = state.vel;
-		if (scene.isPeriodic) box.velocity = scene.cell->bodyFluctuationVel(state.pos, state.vel, scene.cell->prevVelGrad);
-		box.radius    = infinite;
-		Real farthest = 0;
-		forParts(body, scene, [&](const Body& part) {
-			if (!part.shape || !part.state) return;
-			const Shape&       shape  = *part.shape;
-			const ShapeFamily& family = familyOf(shape);
-			box.radius                = math::min(box.radius, family.inscribedRadius(shape));
-			farthest = math::max(farthest, Real((part.state->pos - state.pos).norm() + family.boundingRadius(shape)));
-			family.extend(shape, *part.state, box.low, box.high);
-		});
-		box.spin = state.angVel.norm() * farthest;
-		box.free = isMovedByForces(body);
-		box.id   = body.id;
-		return box;
-	}
 
 	/// Time step in which each body alone moves no farther than it may, whatever the others do.
 	TimeStepLimit absoluteLimit(const std::vector<polytope::MovingBox>& boxes, Real fraction, const polytope::MovingBox& smallest)
@@ -50,6 +24,30 @@ namespace {
 	}
 
 } // namespace
+
+polytope::MovingBox movingBoxOf(const Body& body, const Scene& scene)
+{
+	const State&        state = *body.state;
+	polytope::MovingBox box;
+	box.low      = Vector3r::Constant(infinite);
+	box.high     = Vector3r::Constant(-infinite);
+	box.velocity = state.vel;
+	if (scene.isPeriodic) box.velocity = scene.cell->bodyFluctuationVel(state.pos, state.vel, scene.cell->prevVelGrad);
+	box.radius    = infinite;
+	Real farthest = 0;
+	forParts(body, scene, [&](const Body& part) {
+		if (!part.shape || !part.state) return;
+		const Shape&       shape  = *part.shape;
+		const ShapeFamily& family = familyOf(shape);
+		box.radius                = math::min(box.radius, family.inscribedRadius(shape));
+		farthest                  = math::max(farthest, Real((part.state->pos - state.pos).norm() + family.boundingRadius(shape)));
+		family.extend(shape, *part.state, box.low, box.high);
+	});
+	box.spin = state.angVel.norm() * farthest;
+	box.free = isMovedByForces(body);
+	box.id   = body.id;
+	return box;
+}
 
 TimeStepLimit motionLimit(const Scene& scene, Real fraction, Real below, Real steps)
 {

@@ -88,6 +88,7 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 	consider(last.material, timestepSafetyCoefficient, "material");
 	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
 	consider(yade::motionLimit(*ofScene, motionLimit, math::min(chosen.step, maxDt), timeStepUpdateInterval), 1, "motion");
+	consider(closingLimit(*ofScene, math::min(chosen.step, maxDt), timeStepUpdateInterval), 1, "closing");
 	if (limitedBy.empty()) consider(periodLimit(*ofScene), polytope::tolerance::periodStep, "period");
 	if (!limitedBy.empty() || maxDt < std::numeric_limits<Real>::infinity()) {
 		TimeStepLimit most;

@@ -67,6 +67,10 @@ and no more than what *motion* allows: in a step no two bodies that may meet bef
 :yref:`motionLimit<PolytopeTimeStepper.motionLimit>` times the smaller one's inscribed radius. What has left the others, or moves along with all that
 is near, does not count. (In periodic cells, on several processes and where nothing else limits the step it is the way of each body alone.)
 
+A joint that stiffens as it closes (:yref:`RockJointMat.closure`) limits it by *closing*: in a step it becomes no more than 1.23 times as stiff,
+whether its bodies touch or will before the next update. (Not of spheres and facets, and in periodic cells and on several processes only where
+they touch.)
+
 In a scene in which nothing can move it takes a hundredth of the smallest *virtPeriod* of O.engines (*period*), if there is a
 :yref:`PolytopeCollider`: what such an engine puts into the scene gets its own step before it moves.
 
@@ -80,7 +84,7 @@ scene where nothing limits it. Not for MPI, where each process has its own bodie
 		((Real, maxDt, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Largest time step [s], above 0."))
 		((Body::id_t, limitingBody, Body::ID_NONE, Attr::readonly, "Body that limits the time step; -1: none."))
 		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it "
-		        "contributes more than half of that body's $\\omega^2$), *motion*, *period* or *maxDt*; empty: nothing limits it, O.dt is "
+		        "contributes more than half of that body's $\\omega^2$), *motion*, *closing*, *period* or *maxDt*; empty: nothing limits it, O.dt is "
 		        "not changed."))
 		((LastTimeStepUpdate, last, , (Attr::readonly | Attr::hidden), "What the last update has found"))
 		, /*ctor*/ timeStepUpdateInterval = 50;

@@ -3,6 +3,7 @@
 
 #include "host/PartsOfBodies.hpp"
 
+#include <src/timestep/ApproachLimit.hpp>
 #include <src/timestep/StableTimeStep.hpp>
 
 #include <limits>
@@ -48,11 +49,21 @@ ContactLimit contactLimit(const Scene& scene, Real below = std::numeric_limits<R
 /// Limit of each body's contacts, by id [s]; infinite for those without contacts.
 std::vector<Real> contactSteps(const Scene& scene);
 
+/// What a body, or a clump with its members, occupies and how it moves; its radius is that of the smallest inscribed ball.
+polytope::MovingBox movingBoxOf(const Body& body, const Scene& scene);
+
 /// Time in which two bodies that may meet move against each other by `fraction` of the smaller one's inscribed radius, gravity included
 /// (src/timestep/ApproachLimit.hpp). Where no other limit is known, in periodic cells and in a scene divided among processes, which each
 /// know a part of it: in which each body alone moves by that much of its own, or of the smallest one's where its motion is prescribed.
 /// \param below longer limits need not be found; infinite: none is known
 /// \param steps until the limits are computed anew
 TimeStepLimit motionLimit(const Scene& scene, Real fraction, Real below, Real steps);
+
+/// Time in which a joint with a closure law stiffens by so much that the step from its present stiffness is too long (src/timestep/ClosingStep.hpp),
+/// of bodies that close it, or will before the limits are computed anew. In periodic cells and in a scene divided among processes of contacts that
+/// there are; not of spheres and facets.
+/// \param below longer limits need not be found
+/// \param steps until the limits are computed anew
+TimeStepLimit closingLimit(Scene& scene, Real below, Real steps);
 
 } // namespace yade
