@@ -22,7 +22,7 @@ from yade import (
 from ..bonding.bolting import removedBolts
 from ..bonding.bonds import removedBonds
 from ..scene.movers import canMove, moverOf
-from ..scene.present import stiffnessesPerArea, wrongUnit
+from ..scene.present import unitsOfStiffness, wrongUnit
 
 __all__ = ['engineFindings']
 
@@ -176,9 +176,11 @@ def erasedForces(scene):
 def unitOfSurface(scene):
 	for loop in scene.loops:
 		for functor in loop.geomDispatcher.functors:
-			wrong = isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) and wrongUnit(functor.contactModel, stiffnessesPerArea([loop]))
-			if wrong:
-				yield 'damping and energy', *wrong
+			if not isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom):
+				continue
+			for perArea in sorted(unitsOfStiffness([loop])):
+				if wrong := wrongUnit(functor.contactModel, perArea):
+					yield 'damping and energy', *wrong
 
 
 def pointWithoutArea(scene):
@@ -187,7 +189,7 @@ def pointWithoutArea(scene):
 		for functor in loop.geomDispatcher.functors:
 			if not isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) or functor.contactPoint != 'chebyshevCentre':
 				continue
-			if stiffnessesPerArea([loop]):
+			if True in unitsOfStiffness([loop]):
 				seen = "contactPoint 'chebyshevCentre' with stiffnesses per area: of faces that lie flush the point may be a corner, where the area is almost none, and so is the stiffness"
 				yield 'contact point', seen, "contactPoint='analyticCentre', or stiffnessPerArea=False and stiffnesses in N/m"
 

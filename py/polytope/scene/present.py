@@ -11,6 +11,7 @@ from yade import (
 	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
 	NewtonIntegrator,
 	O,
+	Polytope,
 	PolytopeGeomFunctor,
 	RockJointMat,
 	Vector3,
@@ -31,8 +32,8 @@ __all__ = [
 	'laws',
 	'meanwhile',
 	'placeOfForces',
-	'stiffnessesPerArea',
 	'unitOfModel',
+	'unitsOfStiffness',
 	'wrongUnit',
 ]
 
@@ -96,11 +97,17 @@ def isPerArea(material, makers):
 	return material.stiffnessPerArea and all(one.stiffnessPerArea for one in makers)
 
 
-def stiffnessesPerArea(loops):
-	"""Whether these loops make joints whose stiffness is per area, of one of the scene's materials at least."""
+def unitsOfStiffness(loops):
+	"""The units of stiffness that contacts of polytopes in these loops may have, a set: True per area, False per contact.
+
+	A joint of two units has that per contact, as YADE's own physics have; without bodies it is what these loops are made for.
+	"""
 	makers = jointMakers(loops)
-	joints = jointMaterials(O.bodies)
-	return bool(makers) and (any(isPerArea(one, makers) for one in joints) if joints else all(one.stiffnessPerArea for one in makers))
+	used = [body.material for body in O.bodies if isinstance(body.shape, Polytope) and body.material is not None]
+	if not used:
+		return {all(one.stiffnessPerArea for one in makers)} if makers else {False}
+	joints = jointMaterials(O.bodies) if makers else []
+	return {isPerArea(one, makers) for one in joints} | ({False} if any(not isinstance(one, RockJointMat) for one in used) else set()) or {False}
 
 
 def wrongUnit(model, perArea):

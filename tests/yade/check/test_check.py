@@ -183,6 +183,26 @@ def testSpringWithStiffnessPerArea():
 	assert not polytope.check(O)
 
 
+@pytest.mark.parametrize(('contactModel', 'units'), [('foundation', ['contact']), ('spring', ['area']), ('surface', [])])
+def testAModelBesideMaterialsOfBothUnits(contactModel, units):
+	scene()
+	O.bodies[0].material = RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5, stiffnessPerArea=False)
+	loop().geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(contactModel=contactModel)]
+	seen = [finding.seen for finding in polytope.check(O) if finding.what == 'damping and energy']
+	assert [f'contactModel {contactModel!r} with stiffnesses per {unit}: the force is no gradient of an energy' for unit in units] == seen
+
+
+@pytest.mark.parametrize('contactModel', ['foundation', 'spring'])
+def testAModelForYadesOwnPhysics(contactModel):
+	"""Functors for joints beside YADE's own, as polytope.engines() has them, where no body has a joint's material."""
+	scene(material=FrictMat(density=2600, young=1e8, frictionAngle=0.5))
+	loop().geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(contactModel=contactModel)]
+	loop().physDispatcher.functors += [Ip2_FrictMat_FrictMat_FrictPhys()]
+	loop().lawDispatcher.functors += [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]
+	seen = [finding.seen for finding in polytope.check(O) if 'contactModel' in finding.seen]
+	assert len(seen) == (contactModel == 'foundation') and all('per contact' in one for one in seen)
+
+
 @pytest.mark.parametrize(
 	('name', 'value', 'seen'),
 	[
