@@ -12,6 +12,8 @@ __all__ = ['contactFindings']
 
 answers = ('separated', 'contact', 'normalFromOneBody', 'normalFromDual', 'roundingLimited', 'centreByIpopt')
 """Statuses of queries that have one."""
+withoutContact = 'set them apart; or have no contacts among fixed bodies: mask=3 for each, and avoidSelfInteractionMask=2 for the collider'
+"""What to do about fixed bodies that pierce each other."""
 sameFace = 1 - 1e-6
 """Cosine between normals of two contacts of one face."""
 bornByFriction, bornByPressure = 0.5, 0.1
@@ -22,6 +24,7 @@ def contactFindings(scene):
 	"""Findings about the contacts of the scene's own engines: nothing is known yet of the contacts that others make."""
 	if scene.ownEngines:
 		yield from failures(scene)
+		yield from energyOfFixedBodies(scene)
 		yield from severalPieces(scene)
 		yield from heldByFriction(scene)
 
@@ -38,10 +41,21 @@ def failures(scene):
 		seen += f', now {len(now)}: body {one.id1} and body {one.id2} have {one.geom.status}'
 		if _fixed(scene, one):
 			seen += ', and are both fixed'
-			advice = (
-				'set them apart; or have no contacts among fixed bodies: mask=3 for each, and avoidSelfInteractionMask=2 for the collider'
-			)
+			advice = withoutContact
 	yield 'failures', seen, advice
+
+
+def energyOfFixedBodies(scene):
+	"""Contacts whose bodies nothing moves: what they store and seem to do is in the energies of the scene, and hides all else."""
+	if not scene.O.trackEnergy:
+		return
+	for one in scene.O.interactions:
+		if not (one.isReal and isinstance(one.geom, PolytopeGeom) and one.geom.penetrationDepth > 0 and _fixed(scene, one)):
+			continue
+		if all(scene.O.bodies[key].state.vel.norm() == 0 and scene.O.bodies[key].state.angVel.norm() == 0 for key in (one.id1, one.id2)):
+			seen = f'body {one.id1} and body {one.id2} are both fixed and pierce each other: the energy of their contact is in O.energy'
+			yield 'energy of fixed bodies', seen, withoutContact
+			return
 
 
 def _fixed(scene, pair):

@@ -276,6 +276,26 @@ def testFixedBodiesThatPierceAreNamed():
 	assert 'failures' not in [one.what for one in polytope.check(O)] and O.interactions.countReal() == 0
 
 
+def testTheEnergyOfFixedBodiesIsNamed():
+	"""A side wall that goes through the floor: nothing moves by their contact, but its energy is 1e10 times that of the block between them."""
+	O.materials.append(RockJointMat(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=0.5, density=2600))
+	walls = [polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True), polytope.cuboid((-2, 0, 0.5), (0.5, 2, 1.5), fixed=True)]
+	O.bodies.append([*walls, polytope.cuboid((0, 0, 0.2), (0.2, 0.2, 0.2))])
+	O.engines = polytope.engines()
+	O.run(3, True)
+	assert not polytope.check(O)
+	O.trackEnergy = True
+	O.run(3, True)
+	finding = polytope.check(O)['energy of fixed bodies']
+	assert finding.seen == 'body 0 and body 1 are both fixed and pierce each other: the energy of their contact is in O.energy'
+	assert O.energy['elastPotential'] > 1e8
+	walls[0].mask = walls[1].mask = 3
+	O.engines[1].avoidSelfInteractionMask = 2
+	O.interactions.clear()
+	O.run(3, True)
+	assert not polytope.check(O) and O.energy['elastPotential'] < 1
+
+
 def testUndampedPaperModel():
 	row(contactModel='boon2012')
 	assert not polytope.check(O)
