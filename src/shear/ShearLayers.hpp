@@ -11,9 +11,10 @@
 /// lets a body creep: those that came last are at the rim and leave first, almost unstrained, while the core keeps its force. A bed that
 /// has one displacement for all of its springs loses force in each cycle, and the body creeps for ever.
 ///
-/// For this reason the bed is a stack of layers, each of the springs that came at about the same time, with the core first. Motion strains all layers alike.
-/// Where there is no room for one more layer, the two neighbours that differ least become one with their mean displacement, which loses ½ k a₁a₂/(a₁ + a₂) |e₁
-/// − e₂|² of energy. No change of area ever adds energy.
+/// For this reason the bed is a stack of layers, each of the springs that came at about the same time, with the core first, and knows where the middle of
+/// each layer is: of those near to where area is lost the last leaves, for rims may lift in turn. Motion and turning strain all layers alike. Where there is
+/// no room for one more layer, the two neighbours that differ least become one with their mean displacement, which loses ½ k a₁a₂/(a₁ + a₂) |e₁ − e₂|² of
+/// energy. No change of area ever adds energy.
 namespace polytope {
 
 class ShearLayers {
@@ -47,33 +48,79 @@ public:
 			sum += layer_[k].area * layer_[k].displacement.squaredNorm() / 2;
 		return sum;
 	}
+	/// Σ a r × e, about the bed's centroid.
+	Vector3 moment() const
+	{
+		Vector3 sum = Vector3::Zero();
+		for (int k = 0; k < count_; ++k)
+			sum += layer_[k].area * layer_[k].place.cross(layer_[k].displacement);
+		return sum;
+	}
+	/// Σ a |r|²: what the bed's polar second moment is larger by than those of its layers [m⁴].
+	Real spread() const
+	{
+		Real sum = 0;
+		for (int k = 0; k < count_; ++k)
+			sum += layer_[k].area * layer_[k].place.squaredNorm();
+		return sum;
+	}
 	/// Moves all by the same.
 	void move(const Vector3& by)
 	{
 		for (int k = 0; k < count_; ++k)
 			layer_[k].displacement += by;
 	}
-	/// Applies a rotation, or what else is linear.
-	template <class Map> void turn(const Map& map)
+	/// Turns the bed about its centroid by this small rotation.
+	void strain(const Vector3& rotation)
+	{
+		for (int k = 0; k < count_; ++k)
+			layer_[k].displacement += rotation.cross(layer_[k].place);
+	}
+	/// Applies a rotation, or what else is linear, to the displacements alone.
+	template <class Map> void mapDisplacements(const Map& map)
 	{
 		for (int k = 0; k < count_; ++k)
 			map(layer_[k].displacement);
 	}
-	/// Keeps this part of each layer's springs: those of a part of the bed.
+	/// Turns the bed in space, with all that it knows.
+	template <class Map> void turn(const Map& map)
+	{
+		mapDisplacements(map);
+		for (int k = 0; k < count_; ++k)
+			map(layer_[k].place);
+	}
+	/// Keeps this part of each layer's springs, those of a part of the bed; where they are is not known then.
 	void keepPart(Real part)
 	{
-		for (int k = 0; k < count_; ++k)
+		for (int k = 0; k < count_; ++k) {
 			layer_[k].area *= part;
+			layer_[k].place = Vector3::Zero();
+		}
 	}
+
+	/// How the bed's area changes.
+	struct Change {
+		Vector3 ofCentroid = Vector3::Zero(); ///< way of its centroid through the bodies by that [m]
+		Vector3 rotation   = Vector3::Zero(); ///< by which its springs are strained about their layers' middles
+		Real    reach      = 0;               ///< of the bed from its centroid [m]; 0: it is not known where area joins or leaves
+	};
 	/// Springs join or leave until the area is this [m²].
-	void setArea(Real present);
+	void setArea(Real present, const Change& change);
+	void setArea(Real present) { setArea(present, Change()); }
+	/// Layers are not farther apart than a bed of this polar second moment [m⁴] can have them.
+	void limitSpread(Real second);
 
 private:
 	struct Layer {
 		Real    area         = 0;
 		Vector3 displacement = Vector3::Zero();
+		Vector3 place        = Vector3::Zero(); ///< of its middle, from the bed's centroid
 	};
 
+	void join(Real more, const Vector3& place);
+	void leave(Real less, Vector3 place, const Change& change);
+	int  leavingAt(const Vector3& place, Real reach) const;
+	void remove(int k);
 	void mergeLeastDifferent();
 
 	Layer layer_[tolerance::shearLayers];
@@ -83,7 +130,7 @@ private:
 	template <class Visit> friend void visitParts(ShearLayers& layers, const Visit& visit);
 };
 
-/// Calls visit(name, value) for all that a saved state needs: `count`, `growing`, then area and displacement of each layer.
+/// Calls visit(name, value) for all that a saved state needs: `count`, `growing`, then area, displacement and place of each layer.
 template <class Visit> void visitParts(ShearLayers& layers, const Visit& visit)
 {
 	visit("count", layers.count_);
@@ -91,6 +138,7 @@ template <class Visit> void visitParts(ShearLayers& layers, const Visit& visit)
 	for (int k = 0; k < layers.count_ && k < tolerance::shearLayers; ++k) {
 		visit("area", layers.layer_[k].area);
 		visit("displacement", layers.layer_[k].displacement);
+		visit("place", layers.layer_[k].place);
 	}
 }
 

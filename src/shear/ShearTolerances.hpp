@@ -63,4 +63,10 @@ constexpr Real sameArea = 1000 * rounding;
 /// for 40 cycles on its edges creeps less than a micrometre a cycle.
 constexpr int shearLayers = 4;
 
+/// × reach of the bed: layers whose middles are nearer by less than this to where area is lost count as equally near, and the last of them loses it.
+constexpr double sameRim = 0.1;
+
+/// × the bed's polar second moment: that of its layers' middles is no more, for each layer has an extent of its own.
+constexpr double mostSpread = 0.95;
+
 } // namespace polytope::tolerance

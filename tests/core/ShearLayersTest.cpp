@@ -87,6 +87,112 @@ TEST(ShearLayers, OfNoAreaAreNoMoreThanRoundingLeaves)
 	}
 }
 
+/// Patches of springs that come, are moved and turned, and leave where they are: what the layers stand for where rims lift in turn. All about the origin.
+struct Patches {
+	struct Patch {
+		Real    area;
+		Vector3 place, displacement;
+	};
+	std::vector<Patch> patches;
+
+	Real area() const
+	{
+		Real sum = 0;
+		for (const Patch& patch : patches)
+			sum += patch.area;
+		return sum;
+	}
+	Vector3 centroid() const
+	{
+		Vector3 sum = Vector3::Zero();
+		for (const Patch& patch : patches)
+			sum += patch.area * patch.place;
+		return sum / area();
+	}
+	/// Adds or takes away the patch, and does the same with the layers.
+	template <class Act> void change(ShearLayers& bed, const Vector3& rotation, const Act& act)
+	{
+		const Vector3 before = centroid();
+		act(patches);
+		bed.setArea(area(), { centroid() - before, rotation, 2 });
+	}
+	void move(ShearLayers& bed, const Vector3& by, const Vector3& rotation)
+	{
+		for (Patch& patch : patches)
+			patch.displacement += by + rotation.cross(patch.place - centroid());
+		bed.move(by);
+		bed.strain(rotation);
+	}
+	void expectLike(const ShearLayers& bed) const
+	{
+		Vector3 sum = Vector3::Zero(), moment = Vector3::Zero();
+		Real    energy = 0, spread = 0;
+		for (const Patch& patch : patches) {
+			const Vector3 arm = patch.place - centroid();
+			sum += patch.area * patch.displacement;
+			moment += patch.area * arm.cross(patch.displacement);
+			energy += patch.area * patch.displacement.squaredNorm() / 2;
+			spread += patch.area * arm.squaredNorm();
+		}
+		EXPECT_NEAR((bed.sum() - sum).norm(), 0, 1e-14);
+		EXPECT_NEAR((bed.moment() - moment).norm(), 0, 1e-14);
+		EXPECT_NEAR(bed.energy(), energy, 1e-14);
+		EXPECT_NEAR(bed.spread(), spread, 1e-14);
+	}
+};
+
+TEST(ShearLayers, OfRimsThatLiftInTurnThoseLeaveThatLift)
+{
+	const Vector3 turn = 0.05 * Vector3::UnitZ();
+	ShearLayers   bed(1, 0.1 * x);
+	Patches       real { { { 1, Vector3::Zero(), 0.1 * x } } };
+	const auto    join = [&](Real area, const Vector3& place) {
+                real.change(bed, Vector3::Zero(), [&](auto& all) { all.push_back({ area, place, Vector3::Zero() }); });
+                real.expectLike(bed);
+	};
+	const auto leave = [&](std::size_t k) {
+		real.change(bed, Vector3::Zero(), [&](auto& all) { all.erase(all.begin() + long(k)); });
+		real.expectLike(bed);
+	};
+	join(0.2, Vector3(0.6, 0, 0));
+	real.move(bed, Vector3(0, 0.02, 0), turn);
+	// what comes next is a layer of its own after a loss
+	real.change(bed, Vector3::Zero(), [](auto& all) { all[1].area -= 0.02; });
+	real.expectLike(bed);
+	join(0.1, Vector3(0, 0.7, 0));
+	real.move(bed, Vector3(0.01, 0, 0), -turn);
+	real.expectLike(bed);
+	leave(1); // the one that came first
+	leave(1);
+	EXPECT_EQ(bed.count(), 1);
+	EXPECT_NEAR(bed.moment().norm(), 0, 1e-14);
+}
+
+// What stays of a turned patch has another middle, and there another displacement; the bed's energy is less than before.
+TEST(ShearLayers, WhatStaysIsStrainedAsItWas)
+{
+	const Vector3 turn = -0.1 * Vector3::UnitZ();
+	ShearLayers   bed(1, 0.1 * Vector3::UnitY());
+	bed.setArea(0.75, { Vector3(-0.125, 0, 0), turn, 2 }); // a quarter at the end x = 1/2 of a unit square
+	EXPECT_NEAR(bed.sum()[1] / bed.area(), 0.1 + 0.1 * 0.125, 1e-15);
+	ShearLayers other(1, 0.1 * Vector3::UnitY());
+	other.setArea(0.9, { Vector3(-0.8, 0, 0), 10 * turn, 2 }); // no bed is like that
+	EXPECT_LE(other.energy(), 0.1 * 0.1 / 2);
+}
+
+TEST(ShearLayers, AreNoFartherApartThanTheBedReaches)
+{
+	ShearLayers bed(1, x);
+	bed.setArea(1.5, { Vector3(0.4, 0, 0), Vector3::Zero(), 2 });
+	const Real before = bed.spread();
+	bed.limitSpread(10);
+	EXPECT_EQ(bed.spread(), before);
+	bed.limitSpread(0.1);
+	EXPECT_NEAR(bed.spread(), tolerance::mostSpread * 0.1, 1e-15);
+	bed.limitSpread(0);
+	EXPECT_EQ(bed.spread(), 0);
+}
+
 /// Layers of area 1, 2, 3, 4 with displacements 0.7, 0.6, 0.4 and 0.1, the last of which does not grow.
 ShearLayers fourLayers()
 {
@@ -211,10 +317,27 @@ TEST(ShearLayers, FollowManySpringsAndNeverGainEnergy)
 	EXPECT_LT(worst, 0.15 * largest);
 }
 
+TEST(ShearLayers, NeverGainEnergyWhereverTheirAreaGoes)
+{
+	std::mt19937_64                  random(3);
+	std::normal_distribution<double> normal;
+	const auto                       inPlane = [&](double size) { return Vector3(size * normal(random), size * normal(random), 0); };
+	ShearLayers                      bed(1, 0.02 * x);
+	for (int step = 0; step < 20000; ++step) {
+		const Real before = bed.energy();
+		bed.setArea(
+		        std::abs(1 + 0.4 * std::sin(step / 40.) + 0.05 * normal(random)), { inPlane(0.1), 0.1 * normal(random) * Vector3::UnitZ(), 1 });
+		ASSERT_LE(bed.energy(), before * (1 + 1e-12));
+		ASSERT_LE(bed.count(), tolerance::shearLayers);
+		ASSERT_TRUE(std::isfinite(double(bed.spread())));
+		bed.move(inPlane(1e-2));
+	}
+}
+
 TEST(ShearLayers, SavedStateHasAllOfIt)
 {
 	ShearLayers bed(1, x);
-	bed.setArea(1.5);
+	bed.setArea(1.5, { Vector3(0.1, 0, 0), Vector3::Zero(), 1 });
 	bed.move(0.5 * x);
 	ShearLayers          other;
 	std::vector<Real>    numbers;
@@ -241,6 +364,8 @@ TEST(ShearLayers, SavedStateHasAllOfIt)
 	visitParts(other, Reader { numbers, vectors, number, vector });
 	EXPECT_EQ(other.count(), 2);
 	EXPECT_EQ(other.sum(), bed.sum());
+	EXPECT_GT(bed.spread(), 0);
+	EXPECT_EQ(other.spread(), bed.spread());
 	other.setArea(1.6); // goes on growing the same layer
 	EXPECT_EQ(other.count(), 2);
 }

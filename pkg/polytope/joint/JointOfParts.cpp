@@ -63,9 +63,11 @@ namespace {
 		phys.twistingStiffness = phys.ks * gyration;
 		phys.twistingMoment    = -phys.twistingStiffness * turned;
 		if (!phys.shearLayers.get()) return;
-		polytope::ShearLayers& layers = phys.shearLayers.make().layers;
+		LayersOfJoint&         several = phys.shearLayers.make();
+		polytope::ShearLayers& layers  = several.layers;
+		several.rotation               = turned;
 		layers.keepPart(phys.extentOfBed() / layers.area());
-		layers.turn([&](Vector3r& displacement) { displacement = flat(displacement + more); });
+		layers.mapDisplacements([&](Vector3r& displacement) { displacement = flat(displacement + more); });
 	}
 
 	/// Acts as a part of the bond of the whole.

@@ -85,13 +85,13 @@ Real RockJointPhys::shearStrength(Real normal) const
 Real RockJointPhys::shearEnergy() const
 {
 	const Vector3r force = shearForce - shearViscous;
-	const Real     twist = twistingMoment - twistingViscous;
-	Real           bed   = energyOfSpring(force.squaredNorm(), ks);
-	if (const LayersOfJoint* several = shearLayers.get()) { // their mean is the force's
-		const Real area = several->layers.area(), mean = several->layers.sum().squaredNorm() / (2 * area);
-		if (extentOfBed() > 0) bed += ks / extentOfBed() * (several->layers.energy() - mean);
-	}
-	return bed + energyOfSpring(twist * twist, twistingStiffness);
+	const Real     twist = twistingMoment - twistingViscous, bed = energyOfSpring(force.squaredNorm(), ks);
+	const LayersOfJoint* several = shearLayers.get();
+	if (!several || !(extentOfBed() > 0)) return bed + energyOfSpring(twist * twist, twistingStiffness);
+	const polytope::ShearLayers& layers = several->layers; // their mean is the force's
+	const Real perExtent = ks / extentOfBed(), mean = layers.sum().squaredNorm() / (2 * layers.area());
+	const Real own = twistingStiffness - perExtent * layers.spread();
+	return bed + perExtent * (layers.energy() - mean) + own * several->rotation * several->rotation / 2;
 }
 
 } // namespace yade

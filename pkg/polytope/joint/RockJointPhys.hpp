@@ -39,10 +39,12 @@ struct LastStepOfJoint {
 /// When the springs of a joint's bed came under load (src/shear/ShearLayers.hpp), where not all at once.
 struct LayersOfJoint {
 	polytope::ShearLayers layers;
+	Real                  rotation = 0; ///< of the springs about the normal, about their layers' middles
 
 	template <class Archive> void serialize(Archive& archive, unsigned int)
 	{
 		visitParts(layers, [&](const char* name, auto& value) { archive& boost::serialization::make_nvp(name, value); });
+		archive& boost::serialization::make_nvp("rotation", rotation);
 	}
 };
 

@@ -35,12 +35,13 @@ Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turned
 			layers_ = polytope::ShearLayers(extentBefore_, mean);
 		else layers_.move(mean - layers_.sum() / layers_.area());
 	}
+	if (const Real own = ownTwistingStiffness(); own > 0) rotation_ = (twistOfLayers() - twist_) / own;
 	if (pair.scene->trackEnergy) before_ = energy();
 }
 
 void Shear::adapt(const RockJointPhys& phys)
 {
-	const Real before = stiffness_;
+	const Real before = stiffness_, own = ownTwistingStiffness();
 	const Real extent = phys.extentOfBed();
 	if (perExtent_ > 0) setExtent(phys, extent);
 	else if (phys.ks < before) force_ *= phys.ks / before;
@@ -48,11 +49,12 @@ void Shear::adapt(const RockJointPhys& phys)
 		perExtent_ = phys.ks / extent;
 		layers_    = polytope::ShearLayers(extent, phys.ks > 0 ? Vector3r(-force_ / phys.ks) : Vector3r(Vector3r::Zero()));
 	}
-	stiffness_          = phys.ks;
-	const Real twisting = phys.ks * gyration_;
-	if (twisting < twistingStiffness_) twist_ *= twisting / twistingStiffness_;
-	else if (twistingStiffness_ == 0) twist_ = 0;
-	twistingStiffness_ = twisting;
+	stiffness_         = phys.ks;
+	twistingStiffness_ = phys.ks * gyration_;
+	if (perExtent_ > 0) layers_.limitSpread(twistingStiffness_ / perExtent_);
+	const Real present = ownTwistingStiffness();
+	rotation_ *= present > 0 ? math::min(Real(1), Real(own / present)) : Real(0);
+	twist_ = twistOfLayers() - present * rotation_;
 }
 
 /// Does what adapt() does, where the bed's extent is known.
@@ -62,40 +64,34 @@ void Shear::setExtent(const RockJointPhys& phys, Real extent)
 	if (extent > 0 && present != perExtent_) { // set by a script: as if springs joined or left everywhere
 		if (math::abs(present - perExtent_) > Real(polytope::tolerance::sameArea) * perExtent_) {
 			const Real ratio = present < perExtent_ ? Real(1) : perExtent_ / present;
-			layers_.turn([&](Vector3r& displacement) { displacement *= ratio; });
+			layers_.mapDisplacements([&](Vector3r& displacement) { displacement *= ratio; });
 		}
 		perExtent_ = present;
 	}
-	if (extent != extentBefore_) layers_.setArea(extent);
+	if (extent != extentBefore_) layers_.setArea(extent, changeOfArea(phys, extentBefore_, extent));
 	if (pair_.geom.atOnePoint && layers_.count() > 1) layers_ = polytope::ShearLayers(layers_.area(), layers_.sum() / layers_.area());
 	force_ = -perExtent_ * layers_.sum();
-	if (gyration_ > 0 && phys.shearStiffness > 0 && extent != extentBefore_) followCentroid(extentBefore_, extent);
 }
 
-/// With springs that join or leave on one side the area's centroid moves through the bodies. What has joined carries nothing: the force stays in its
-/// line, and about the new centroid has a moment. What has left takes its part along: the others are strained as they were.
-///
-/// A rigid bed cannot tell which of its springs hold that moment, so its energy is counted in addition: in a block that tumbles on its
-/// edges, a few 1e-5 of what friction takes comes back.
-void Shear::followCentroid(Real areaBefore, Real areaNow)
+/// With springs that join or leave on one side the area's centroid moves through the bodies. What has joined carries nothing: the force stays in its line.
+/// What has left takes its part along.
+polytope::ShearLayers::Change Shear::changeOfArea(const RockJointPhys& phys, Real areaBefore, Real areaNow) const
 {
+	polytope::ShearLayers::Change change;
+	if (!(gyration_ > 0 && phys.shearStiffness > 0)) return change;
 	const State &  state1 = pair_.state1, &state2 = pair_.state2;
 	const Vector3r way = (state1.vel + state1.angVel.cross(lastPoint_ - state1.pos) + pair_.centreVelocity() + state1.vel
 	                             + state2.angVel.cross(lastPoint_ - pair_.centre2))
 	        * pair_.scene->dt / 2;
-	Vector3r moved = pair_.geom.contactPoint + offset_ - lastPoint_ - way;
-	moved -= pair_.geom.normal.dot(moved) * pair_.geom.normal;
-	// no farther than so much of the area can move it; a body that slides takes its area along
-	const Real share = math::abs(areaNow - areaBefore) / math::max(areaNow, areaBefore), most = 2 * share * math::sqrt(gyration_);
-	const Real far = moved.norm();
-	if (!(far > 0)) return;
-	if (far > most) moved *= most / far;
-	if (areaNow > areaBefore) twist_ -= pair_.geom.normal.dot(moved.cross(force_));
-	else if (twistingStiffness_ > 0) {
-		const Vector3r more = -twist_ / twistingStiffness_ * acrossNormal(moved); // displacement of body 2 there
-		layers_.move(more);
-		force_ = -perExtent_ * layers_.sum();
-	}
+	change.ofCentroid = pair_.geom.contactPoint + offset_ - lastPoint_ - way;
+	change.ofCentroid -= pair_.geom.normal.dot(change.ofCentroid) * pair_.geom.normal;
+	change.reach    = 2 * math::sqrt(gyration_);
+	change.rotation = rotation_ * pair_.geom.normal;
+	// a body that slides takes its area along: which of both does is not known. Nor is it farther than so much of the area can move it
+	const Real far = change.ofCentroid.norm(), slid = velocity().norm() * pair_.scene->dt / 2,
+	           most = math::abs(areaNow - areaBefore) / math::max(areaNow, areaBefore) * change.reach;
+	if (far > 0) change.ofCentroid *= math::max(Real(0), math::min(most, Real(far - slid))) / far;
+	return change;
 }
 
 void Shear::move(const Vector3r& increment)
@@ -103,6 +99,8 @@ void Shear::move(const Vector3r& increment)
 	turn_   = hasOutline() ? pair_.geom.normal.dot(pair_.spin()) * pair_.scene->dt : Real(0);
 	motion_ = increment + turn_ * acrossNormal(offset_);
 	layers_.move(motion_);
+	layers_.strain(turn_ * pair_.geom.normal);
+	rotation_ += turn_;
 	force_ -= stiffness_ * motion_;
 	twist_ -= twistingStiffness_ * turn_;
 	trialForce_ = force_;
@@ -158,9 +156,15 @@ bool Shear::limit(const RockJointPhys& phys, Real normal)
 	const auto              bed  = polytope::bedStiffness(stiffness_, gyration_, moments_.centroid - centre);
 	const polytope::Vector3 slip = polytope::returnToStrength(spread, bed, load, likelySlip_);
 	if (slip == polytope::Vector3::Zero()) return false;
-	force_ = inWorld(polytope::Vector2(load[0], load[1]));
-	twist_ = twistOf(load, centre);
+	const Real twistBefore = twist_;
+	force_                 = inWorld(polytope::Vector2(load[0], load[1]));
+	twist_                 = twistOf(load, centre);
 	layers_.move((before - force_) / stiffness_);
+	if (twistingStiffness_ > 0) {
+		const Real turned = (twistBefore - twist_) / twistingStiffness_;
+		layers_.strain(turned * pair_.geom.normal);
+		rotation_ += turned;
+	}
 	return true;
 }
 
@@ -200,14 +204,14 @@ void Shear::damp(const RockJointPhys& phys, Real normal, Real damper, Real twist
 void Shear::vanish()
 {
 	force_ = Vector3r::Zero();
-	twist_ = 0;
-	layers_.turn([](Vector3r& displacement) { displacement = Vector3r::Zero(); });
+	twist_ = rotation_ = 0;
+	layers_.mapDisplacements([](Vector3r& displacement) { displacement = Vector3r::Zero(); });
 }
 
 Real Shear::energy() const
 {
 	const Real along = perExtent_ > 0 ? Real(perExtent_ * layers_.energy()) : energyOfSpring(force_.squaredNorm(), stiffness_);
-	return along + energyOfSpring(twist_ * twist_, twistingStiffness_);
+	return along + ownTwistingStiffness() * rotation_ * rotation_ / 2;
 }
 
 void Shear::keep(RockJointPhys& phys) const
@@ -219,8 +223,11 @@ void Shear::keep(RockJointPhys& phys) const
 	phys.twistingStiffness = twistingStiffness_;
 	phys.likelySlip        = likelySlip_;
 	phys.shearPoint        = pair_.geom.contactPoint + offset_;
-	if (layers_.count() > 1) phys.shearLayers.make().layers = layers_;
-	else phys.shearLayers.clear();
+	if (layers_.count() > 1) {
+		LayersOfJoint& several = phys.shearLayers.make();
+		several.layers         = layers_;
+		several.rotation       = rotation_;
+	} else phys.shearLayers.clear();
 }
 
 } // namespace yade

@@ -67,7 +67,10 @@ private:
 	const polytope::ShearStrength& spreadStrength(Real strength, const polytope::Vector2& centre);
 	polytope::Vector2              centreOfStrength(const RockJointPhys& phys, Real strength) const;
 	void                           setExtent(const RockJointPhys& phys, Real extent);
-	void                           followCentroid(Real areaBefore, Real areaNow);
+	polytope::ShearLayers::Change  changeOfArea(const RockJointPhys& phys, Real areaBefore, Real areaNow) const;
+	/// Stiffness against turning about the normal of the layers, each about its middle [N m/rad].
+	Real ownTwistingStiffness() const { return twistingStiffness_ - perExtent_ * layers_.spread(); }
+	Real twistOfLayers() const { return -perExtent_ * pair_.geom.normal.dot(layers_.moment()); }
 
 	const Pair&                            pair_;
 	Vector3r                               axis_[2];
@@ -82,6 +85,7 @@ private:
 	Vector3r                               likelySlip_;                    ///< where the search for slip has ended
 	std::optional<polytope::ShearStrength> spread_;                        ///< the last one that was asked for
 	polytope::ShearLayers                  layers_;                        ///< their area: the bed's extent
+	Real                                   rotation_ = 0;                  ///< of the springs about their layers' middles
 	Real                                   before_       = 0;
 	Vector3r                               motion_       = Vector3r::Zero(); ///< at the area's centroid
 	Real                                   turn_         = 0;                ///< about the normal
