@@ -325,8 +325,8 @@ TEST(ShearLayers, NeverGainEnergyWhereverTheirAreaGoes)
 	ShearLayers                      bed(1, 0.02 * x);
 	for (int step = 0; step < 20000; ++step) {
 		const Real before = bed.energy();
-		bed.setArea(
-		        std::abs(1 + 0.4 * std::sin(step / 40.) + 0.05 * normal(random)), { inPlane(0.1), 0.1 * normal(random) * Vector3::UnitZ(), 1 });
+		bed.setArea(std::abs(1 + 0.4 * std::sin(step / 40.) + 0.05 * normal(random)),
+		        { inPlane(0.1), 0.1 * normal(random) * Vector3::UnitZ(), 1 });
 		ASSERT_LE(bed.energy(), before * (1 + 1e-12));
 		ASSERT_LE(bed.count(), tolerance::shearLayers);
 		ASSERT_TRUE(std::isfinite(double(bed.spread())));

@@ -84,13 +84,13 @@ Real RockJointPhys::shearStrength(Real normal) const
 
 Real RockJointPhys::shearEnergy() const
 {
-	const Vector3r force = shearForce - shearViscous;
-	const Real     twist = twistingMoment - twistingViscous, bed = energyOfSpring(force.squaredNorm(), ks);
+	const Vector3r       force = shearForce - shearViscous;
+	const Real           twist = twistingMoment - twistingViscous, bed = energyOfSpring(force.squaredNorm(), ks);
 	const LayersOfJoint* several = shearLayers.get();
 	if (!several || !(extentOfBed() > 0)) return bed + energyOfSpring(twist * twist, twistingStiffness);
-	const polytope::ShearLayers& layers = several->layers; // their mean is the force's
-	const Real perExtent = ks / extentOfBed(), mean = layers.sum().squaredNorm() / (2 * layers.area());
-	const Real own = twistingStiffness - perExtent * layers.spread();
+	const polytope::ShearLayers& layers    = several->layers; // their mean is the force's
+	const Real                   perExtent = ks / extentOfBed(), mean = layers.sum().squaredNorm() / (2 * layers.area());
+	const Real                   own = twistingStiffness - perExtent * layers.spread();
 	return bed + perExtent * (layers.energy() - mean) + own * several->rotation * several->rotation / 2;
 }
 

@@ -85,7 +85,7 @@ private:
 	Vector3r                               likelySlip_;                    ///< where the search for slip has ended
 	std::optional<polytope::ShearStrength> spread_;                        ///< the last one that was asked for
 	polytope::ShearLayers                  layers_;                        ///< their area: the bed's extent
-	Real                                   rotation_ = 0;                  ///< of the springs about their layers' middles
+	Real                                   rotation_     = 0;              ///< of the springs about their layers' middles
 	Real                                   before_       = 0;
 	Vector3r                               motion_       = Vector3r::Zero(); ///< at the area's centroid
 	Real                                   turn_         = 0;                ///< about the normal
