@@ -89,15 +89,6 @@ public:
 		for (int k = 0; k < count_; ++k)
 			map(layer_[k].place);
 	}
-	/// Keeps this part of each layer's springs, those of a part of the bed; where they are is not known then.
-	void keepPart(Real part)
-	{
-		for (int k = 0; k < count_; ++k) {
-			layer_[k].area *= part;
-			layer_[k].place = Vector3::Zero();
-		}
-	}
-
 	/// How the bed's area changes.
 	struct Change {
 		Vector3 ofCentroid = Vector3::Zero(); ///< way of its centroid through the bodies by that [m]

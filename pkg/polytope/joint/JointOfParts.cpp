@@ -40,7 +40,8 @@ namespace {
 		return made;
 	}
 
-	/// Shear springs of a part of the bed: displaced as those of the whole at the same place, which has turned about the normal, too.
+	/// Shear springs of a part of the bed: displaced as those of the whole at the same place, which has turned about the normal, too. When they joined is
+	/// forgotten: with one layer the parts have the least energy that holds the force and the moment of the whole.
 	void takeShear(RockJointPhys& phys, const RockJointPhys& whole, const PolytopeGeom& geom)
 	{
 		const Vector3r& n        = geom.normal;
@@ -62,12 +63,7 @@ namespace {
 		phys.shearPoint        = centroid;
 		phys.twistingStiffness = phys.ks * gyration;
 		phys.twistingMoment    = -phys.twistingStiffness * turned;
-		if (!phys.shearLayers.get()) return;
-		LayersOfJoint&         several = phys.shearLayers.make();
-		polytope::ShearLayers& layers  = several.layers;
-		several.rotation               = turned;
-		layers.keepPart(phys.extentOfBed() / layers.area());
-		layers.mapDisplacements([&](Vector3r& displacement) { displacement = flat(displacement + more); });
+		phys.shearLayers.clear();
 	}
 
 	/// Acts as a part of the bond of the whole.

@@ -20,7 +20,7 @@
 namespace yade {
 namespace {
 
-	const Real infinite = std::numeric_limits<Real>::infinity();
+	const Real unlimited = std::numeric_limits<Real>::infinity();
 
 	using Materials = std::vector<const RockJointMat*>;
 
@@ -119,7 +119,7 @@ namespace {
 			for (const Body::id_t id : closing_) {
 				const Body& body  = *(*scene_.bodies)[id];
 				const auto  sides = closingMaterialsOf(body, scene_);
-				const auto  known = ways.emplace(moverOf(body, scene_).id, infinite).first;
+				const auto  known = ways.emplace(moverOf(body, scene_).id, unlimited).first;
 				forLaws(sides, sides, [&](const polytope::ClosureLaw& law) {
 					known->second = math::min(known->second, polytope::closingWay(law, 0, sizeOf(body)));
 				});
@@ -140,7 +140,7 @@ namespace {
 		static Real sizeOf(const Body& body)
 		{
 			const Real radius = familyOf(*body.shape).inscribedRadius(*body.shape);
-			return radius < infinite ? radius : Real(1);
+			return radius < unlimited ? radius : Real(1);
 		}
 
 		Body::id_t limitedOf(const Body& one, const Body& other) const
@@ -223,7 +223,7 @@ namespace {
 
 TimeStepLimit closingLimit(Scene& scene, Real below, Real steps)
 {
-	if (!(below < infinite)) return {};
+	if (!(below < unlimited)) return {};
 	const ClosingJoints joints(scene, below * steps, steps);
 	if (joints.none()) return {};
 	TimeStepLimit limit = joints.ofContacts();

@@ -95,6 +95,22 @@ def testLoopsInWhichRimsSlipTakeEnergy(loop):
 	assert seen[-1] < bedOfSprings(loop, tan(radians(35)), 3, 40)[0][-1]
 
 
+@pytest.mark.parametrize('loop', ['TXRt', 'XTYR'])
+def testWhatIsCutHasNoMoreShearEnergy(loop):
+	"""A block is cut in the middle of such a loop: force and moment stay but for the rims at the cut, what the springs store does not rise."""
+	block(loop, tan(radians(80)), 1, 100)
+	whole = O.interactions[0, 1].phys
+	energy, force, at, moment = whole.shearEnergy, Vector3(whole.shearForce), Vector3(whole.shearPoint), whole.twistingMoment
+	polytope.split(1, normal=(1, 0.3, 0))
+	parts = [contact.phys for contact in O.interactions if contact.isReal]
+	assert len(parts) == 2
+	print(energy, [part.shearEnergy for part in parts], force, moment)
+	assert 0.5 * energy < sum(part.shearEnergy for part in parts) < energy
+	assert (sum((part.shearForce for part in parts), Vector3.Zero) - force).norm() < 0.03 * force.norm()
+	turning = sum(part.twistingMoment + (part.shearPoint - at).cross(part.shearForce)[2] for part in parts)
+	assert turning == pytest.approx(moment, abs=0.03 * force.norm() * half[0])
+
+
 @pytest.mark.parametrize('mu', [0.7, 5])
 def testAWedgeInAGrooveGainsNothing(mu):
 	"""A free body in a V groove whose sides differ, pushed and turned, without dampers: its rims lift in turn on both sides. It had 260 times the
