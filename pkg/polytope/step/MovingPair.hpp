@@ -54,8 +54,8 @@ public:
 		polytope::ContactSettings settings;
 		settings.warmStart    = false;
 		settings.programAlone = true;
-		settings.tolerance    = -1
-		        - centre2.norm() / other_.shape.boundingRadius(); // × size: the program goes on to the end across any gap of theirs
+		// × size: the program goes on to the end across any gap of theirs
+		settings.tolerance = -1 - centre2.norm() / other_.shape.boundingRadius();
 		polytope::PairMemory    memory;
 		polytope::ContactResult result;
 		polytope::contactQuery({ one_.shape, rotation1, other_.shape, rotation2, centre2 }, settings, memory, workspace_, result);
@@ -70,11 +70,11 @@ public:
 	Real step(const polytope::ClosureLaw& law, Real closure, bool touching, Real horizon, Real steps)
 	{
 		using namespace polytope;
-		const Real     infinite = std::numeric_limits<Real>::infinity();
-		const Vector3r velocity = other_.course.velocity - one_.course.velocity;
-		const Real speed = (velocity + horizon * (other_.course.acceleration - one_.course.acceleration)).norm() + one_.spinSpeed()
-		        + other_.spinSpeed();
-		const Real most = math::max(speed, Real(velocity.norm() + one_.spinSpeed() + other_.spinSpeed())) * horizon;
+		const Real     infinite     = std::numeric_limits<Real>::infinity();
+		const Vector3r velocity     = other_.course.velocity - one_.course.velocity,
+		               acceleration = other_.course.acceleration - one_.course.acceleration;
+		const Real speed            = velocity.norm() + horizon * acceleration.norm() + one_.spinSpeed() + other_.spinSpeed(),
+		           most             = speed * horizon;
 		if (!(most > 0 && closingWay(law, closure, most) < most)) return infinite;
 		Real now = 0, least = infinite;
 		if (touching) { // opening is as steep
