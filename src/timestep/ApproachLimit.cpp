@@ -182,11 +182,6 @@ namespace {
 
 } // namespace
 
-ApproachLimit approachLimit(std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below)
-{
-	return Search(std::move(bodies), fraction, horizon, change, below, LimitOfTwo()).find();
-}
-
 ApproachLimit approachLimit(std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below,
         const LimitOfTwo& limitOfTwo)
 {

@@ -31,17 +31,16 @@ struct ApproachLimit {
 	int  id   = -1; ///< of the free body of the pair, of two free ones of the smaller one
 };
 
-/// \param fraction of the smaller inscribed radius
-/// \param horizon  until then [s]
-/// \param change   by which a relative velocity may change until then, as by gravity [m/s]
-/// \param below    longer limits need not be found [s]
-ApproachLimit approachLimit(
-        std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below);
-
-/// The same with the limit that a function gives for the ids of two bodies which may come nearer by the fraction within `below`, with the change of their
-/// velocities, too.
+/// The limit of two bodies with these ids [s].
 using LimitOfTwo = std::function<Real(int id1, int id2)>;
+
+/// \param fraction   of the smaller inscribed radius
+/// \param horizon    until then [s]
+/// \param change     by which a relative velocity may change until then, as by gravity [m/s]
+/// \param below      longer limits need not be found [s]
+/// \param limitOfTwo takes the place of the fraction over the speed, for two bodies that may come nearer by the fraction within `below`, the change of
+///                   their velocities included
 ApproachLimit approachLimit(std::vector<MovingBox> bodies, const Real& fraction, const Real& horizon, const Real& change, const Real& below,
-        const LimitOfTwo& limitOfTwo);
+        const LimitOfTwo& limitOfTwo = {});
 
 } // namespace polytope
