@@ -74,7 +74,8 @@ def testFunnelOfFacetsKeepsItsEnergyBudget(perArea):
 def testHeapKeepsItsEnergyBudget(perArea):
 	heap = Heap(number=24, perArea=perArea).build()
 	book = EnergyBook(heap.ids, heap.gravity)
-	while O.time < 0.8:
+	# the last grain to fall from the heap's top is down by then: at 1 s none of 16 heaps (8 seeds, both rules) had one faster than 0.27 m/s
+	while O.time < 1:
 		O.step()
 	assert failures() == 0 and min(heap.positions[:, 2]) > 0 and max(heap.speeds) < 0.5
 	checkBudget(book.read())
