@@ -15,7 +15,7 @@ noContact = 'none'
 _booked = ('elastPotential', 'plastDissip', 'normDampDissip', 'shearDampDissip', 'nonconservative')
 """Terms of O.energy that the contact law records (RockJoint law: fracture needs strength, which no body here has)."""
 _springs = ('spring', 'normalStored', 'shearStored')
-"""What of a contact is recorded: force of the normal spring [N], energy of the normal and of the shear spring [J]."""
+"""What of a contact's springs is recorded: force of the normal spring [N], energy of the normal and of the shear spring [J]."""
 
 
 class MotionRecord:
@@ -50,9 +50,9 @@ class MotionRecord:
 		if contact:
 			geom = contact.geom
 			self.partner = contact.id2 if contact.id1 == self.body.id else contact.id1
-			touch = [*geom.contactPoint, *geom.normal, geom.penetrationDepth, *_springsOf(contact)]
+			touch = [*geom.contactPoint, *geom.normal, geom.penetrationDepth, *_springsOf(contact), *self._shearDamperOf(contact)]
 		else:
-			touch = [*[np.nan] * 7, 0, 0, 0]
+			touch = [*[np.nan] * 7, *[0] * 9]
 		energy = dict(O.energy.items())  # the law adds its terms at its first contact
 		self._rows.append([*here, *state.vel, *state.angVel, *force, *torque, *touch, *(energy.get(name, 0.0) for name in _booked)])
 
@@ -70,8 +70,11 @@ class MotionRecord:
 			'torque',
 			'point',
 			'normal',
+			'shearDamper',
+			'shearDamperCouple',
 		)
-		widths = {**dict.fromkeys(('time', *vectors, 'depth', *_springs, *_booked), 1), **dict.fromkeys(vectors, 3), 'orientation': 4}
+		names = ('time', *vectors[:-2], 'depth', *_springs, *vectors[-2:], *_booked)
+		widths = {**dict.fromkeys(names, 1), **dict.fromkeys(vectors, 3), 'orientation': 4}
 		start = 0
 		for name, width in widths.items():
 			setattr(self, name, rows[:, start] if width == 1 else rows[:, start : start + width])
@@ -83,6 +86,12 @@ class MotionRecord:
 		self.inertia = np.array(self.body.state.inertia, float)
 		self.type = self._namedTypes()
 		return self
+
+	def _shearDamperOf(self, contact):
+		"""Force of the shear damper on the body [N], and its moment about the contact point [N·m]."""
+		phys, sign = contact.phys, 1 if contact.id2 == self.body.id else -1
+		force, arm = sign * phys.shearViscous, phys.shearPoint - contact.geom.contactPoint
+		return *force, *(arm.cross(force) + sign * phys.twistingViscous * contact.geom.normal)
 
 	def _namedTypes(self):
 		touching = np.flatnonzero(np.isfinite(self.depth))
@@ -179,23 +188,20 @@ class MotionRecord:
 	def bookError(self):
 		"""Largest errors of the law's own terms, by term [J].
 
-		Springs: against `elasticEnergy`. Dampers and friction: against forces times the motion at the contact point, taken as the law
-		takes them, with the mean of the forces at both ends of a step, turned to the present normal, and the present lever arm (`normalLoss`
-		and `shearLoss` have each end's own; where the contact point jumps that differs), without the steps in which the contact ends: the
-		record has no contact point there, and the law does. Sum: what all of the law's terms leave over.
+		Springs: against `elasticEnergy`. Dampers: against their forces' work. Friction: against the shear springs' forces times the motion
+		at the contact point, taken as the law takes them, with the mean of the forces at both ends of a step, turned to the present normal,
+		and the present lever arm (`shearLoss` has each end's own; where the contact point jumps that differs), without the steps in which the
+		contact ends: the record has no contact point there, and the law does. Sum: what all of the law's terms leave over.
 		"""
-		outward, force = self._outward(), self.contactForce
-		along = np.sum(force * outward, axis=1)
-		across = force - along[:, None] * outward
-		damper = along - self.spring
-		before = damper[:-1] * np.sum(outward[:-1] * outward[1:], axis=1)
+		outward, couple = self._outward(), self._couple()
+		across = self.contactForce - np.sum(self.contactForce * outward, axis=1)[:, None] * outward - self.shearDamper
+		turning = couple - self.shearDamperCouple
 		motion = self.timeStep * (self.velocityBefore + np.cross(self.spinBefore, np.nan_to_num(self.point - self.position)))[1:]
 		closer = np.sum(motion * outward[1:], axis=1)
 		sideways = motion - closer[:, None] * outward[1:]
 		touching = self.spring[1:] > 0
-		normal = -0.5 * np.cumsum(touching * (before + damper[1:]) * closer)
-		couple, turned = self._couple(), self.timeStep * self.spinBefore[1:]
-		work = np.sum((across[:-1] + across[1:]) * sideways + (couple[:-1] + couple[1:]) * turned, axis=1)
+		turned = self.timeStep * self.spinBefore[1:]
+		work = np.sum((across[:-1] + across[1:]) * sideways + (turning[:-1] + turning[1:]) * turned, axis=1)
 		shear = -0.5 * np.cumsum(touching * work)
 
 		def taken(total):
@@ -203,11 +209,12 @@ class MotionRecord:
 
 		pairs = {
 			'springs': (self.elastPotential, self.elasticEnergy()),
-			'normal damper': (taken(self.normDampDissip), normal),
-			'friction and shear damper': (taken(self.plastDissip + self.shearDampDissip + self.shearStored), shear),
+			'normal damper': (self.normDampDissip, self.normalLoss()),
+			'shear damper': (self.shearDampDissip, -self._work(self.shearDamper, self.shearDamperCouple)),
+			'friction': (taken(self.plastDissip + self.shearStored), shear),
 			'sum': (
 				self.elastPotential + self.plastDissip + self.normDampDissip + self.shearDampDissip + self.nonconservative,
-				-self._work(force, couple),
+				-self._work(self.contactForce, couple),
 			),
 		}
 		return {name: float(np.abs(law - own).max()) for name, (law, own) in pairs.items()}

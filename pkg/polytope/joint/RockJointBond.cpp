@@ -127,11 +127,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 
 	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
-		work.plastic        = bond.yields() ? bond.plasticWork() : Real(0);
-		work.normalDamping  = -(last.normalViscous + viscous) / 2 * normal.dot(atBond.velocity()) * scene->dt;
-		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(atBond.spin()) / 2 * scene->dt;
-		work.shearDamping   = -(last.shearViscous + shearViscous).dot(increment) / 2;
-		work.stored         = bond.energy;
+		work.plastic = bond.yields() ? bond.plasticWork() : Real(0);
+		work.stored  = bond.energy;
 		book(atBond, phys, last, work);
 	}
 	return true;

@@ -18,16 +18,26 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nameEnergies()
 	}
 }
 
-/// Energy of the step from the last positions to these, with the mean of the forces at both ends.
-void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJointPhys& phys, const Last& last, const StepWork& work)
+/// Energy of the step from the last positions to these, with the mean of the forces at both ends: each where it acts, for a point and a normal that move
+/// from step to step would else make an error as large as the step.
+void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJointPhys& phys, const Last& last, StepWork work)
 {
 	if (!energiesNamed_) nameEnergies();
-	const LastStepOfJoint before = phys.lastStep.get() ? *phys.lastStep.get() : LastStepOfJoint();
-	const Vector3r        force  = phys.normalForce + phys.shearForce;
-	const Vector3r        moment = phys.undampedMoment(pair.geom);
-	const auto            half
-	        = [&](const ForceOfPair& of) { return halfStepWork(of, pair.centreVelocity(), pair.state1, pair.state2, scene->dt); };
-	const Real given = half({ last.force, before.moment, before.arm1, before.arm2 }) + half({ force, moment, pair.arm1, pair.arm2 });
+	const bool            tracked = phys.lastStep.get();
+	const LastStepOfJoint before  = tracked ? *phys.lastStep.get() : LastStepOfJoint();
+	const Vector3r        force = phys.normalForce + phys.shearForce, moment = phys.undampedMoment(pair.geom),
+	               viscousMoment = phys.viscousMoment(pair.geom);
+	const auto workOf = [&](const Vector3r& lastForce, const Vector3r& lastMoment, const Vector3r& now, const Vector3r& nowMoment) {
+		const auto half = [&](const ForceOfPair& of) {
+			return halfStepWork(of, pair.centreVelocity(), pair.state1, pair.state2, scene->dt);
+		};
+		const Real ofNow = half({ now, nowMoment, pair.arm1, pair.arm2 });
+		return tracked ? half({ lastForce, lastMoment, before.arm1, before.arm2 }) + ofNow : ofNow;
+	};
+	const Real given = workOf(last.force, before.moment, force, moment);
+	work.normalDamping -= workOf(last.normalViscous, Vector3r::Zero(), phys.normalViscous, Vector3r::Zero());
+	work.shearDamping -= workOf(last.shearViscous, before.viscousMoment, phys.shearViscous, viscousMoment);
+	const Real rockingDamping = -(last.rockingMoment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
 	// a contact that was there before tracking was switched on has no last step to compare with
 	const bool known = before.stored >= 0 || pair.contact.iterMadeReal == scene->iter;
 	Real       rest  = 0;
@@ -37,10 +47,10 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	const auto add = [&](Energy kind, Real value) { scene->energy->add(value, "", energyIds_[kind], kind == elastic); };
 	add(elastic, work.stored);
 	add(plastic, work.plastic);
-	add(normalViscosity, work.normalDamping + work.rockingDamping);
+	add(normalViscosity, work.normalDamping + rockingDamping);
 	add(shearViscosity, work.shearDamping);
 	add(work.fractured ? fracture : nonconservative, rest);
-	phys.lastStep.make() = { pair.arm1, pair.arm2, moment, work.stored };
+	phys.lastStep.make() = { pair.arm1, pair.arm2, moment, viscousMoment, work.stored };
 }
 
 } // namespace yade

@@ -98,13 +98,11 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::act(PolytopeGeom& geom, RockJo
 
 	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
-		const Real ofDamper = (last.normalViscous + viscous) / 2;
+		const Real ofDamper = (last.normalViscous.dot(geom.normal) + viscous) / 2;
 		const Real lifting  = (last.elasticNormal + elasticNormal) / 2 * widening + ofDamper * rising;
 		work.fractured      = work.fractured || last.wasBond || last.actedAsBond;
 		work.plastic        = last.wasBond ? Real(0) : work.plastic + shear.loss() - lifting;
-		work.normalDamping  = -ofDamper * (geom.normal.dot(pair.velocity()) * scene->dt - rising);
-		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
-		work.shearDamping   = shear.dampingLoss(last.shearViscous, last.twistingViscous);
+		work.normalDamping  = ofDamper * rising;
 		work.stored         = phys.normalEnergy(geom, elasticNormal) + shear.energy();
 		book(pair, phys, last, work);
 	}

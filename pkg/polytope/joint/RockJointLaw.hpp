@@ -117,7 +117,7 @@ private:
 	void     followOwnLaws(RockJointPhys& phys, Shear& shear, Real overlap, Real normal) const;
 	void     endOwnLaws(RockJointPhys& phys, const Shear& shear, Real normal) const;
 	void     nameEnergies();
-	void     book(const Pair& pair, RockJointPhys& phys, const Last& last, const StepWork& work);
+	void     book(const Pair& pair, RockJointPhys& phys, const Last& last, StepWork work);
 
 	enum Energy { elastic, plastic, normalViscosity, shearViscosity, fracture, nonconservative, energyCount };
 	std::array<int, energyCount>        energyIds_ { { -1, -1, -1, -1, -1, -1 } };

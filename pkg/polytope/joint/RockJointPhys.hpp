@@ -24,14 +24,16 @@ inline Real energyOfSpring(const Real& square, const Real& stiffness) { return s
 /// What the law remembers of a joint's last step where energies are tracked.
 struct LastStepOfJoint {
 	Vector3r arm1 = Vector3r::Zero(), arm2 = Vector3r::Zero(); ///< from the bodies' centres to the contact point
-	Vector3r moment = Vector3r::Zero();                        ///< on body 2 about the contact point, without the rocking damper's
-	Real     stored = -1;                                      ///< energy; negative: was not tracked
+	Vector3r moment        = Vector3r::Zero();                 ///< on body 2 about the contact point, without the rocking damper's
+	Vector3r viscousMoment = Vector3r::Zero();                 ///< of that the part of the shear dampers
+	Real     stored        = -1;                               ///< energy; negative: was not tracked
 
 	template <class Archive> void serialize(Archive& archive, unsigned int)
 	{
 		archive& BOOST_SERIALIZATION_NVP(arm1);
 		archive& BOOST_SERIALIZATION_NVP(arm2);
 		archive& BOOST_SERIALIZATION_NVP(moment);
+		archive& BOOST_SERIALIZATION_NVP(viscousMoment);
 		archive& BOOST_SERIALIZATION_NVP(stored);
 	}
 };
@@ -125,6 +127,11 @@ public:
 	{
 		const Vector3r ofShear = momentAbout(geom.contactPoint, geom.normal);
 		return bond ? ofShear : Vector3r(ofShear + normalMoment(geom.turningArm));
+	}
+	/// Moment on body 2 about the contact point of the shear dampers [N m].
+	Vector3r viscousMoment(const PolytopeGeom& geom) const
+	{
+		return (shearPoint - geom.contactPoint).cross(shearViscous) + twistingViscous * geom.normal;
 	}
 	/// Shear acts at this point, without a moment.
 	void shearAt(const Vector3r& point)

@@ -48,16 +48,9 @@ public:
 	/// Energy of the springs now [J].
 	Real energy() const;
 	/// What the springs lost in this step by slip, and with springs that left or joined [J].
-	Real loss() const { return before_ - energy() - workOn(lastForce_ + force_, lastTwist_ + twist_); }
-	/// Energy that the dampers lost in this step [J]; `lastForce`, `lastMoment`: viscous, at the end of the last step.
-	Real dampingLoss(const Vector3r& lastForce, Real lastMoment) const
-	{
-		return -workOn(lastForce + viscous_, lastMoment + viscousTwist_);
-	}
+	Real loss() const { return before_ - energy() - ((lastForce_ + force_).dot(motion_) + (lastTwist_ + twist_) * turn_) / 2; }
 
 private:
-	/// Work of half of these on body 2 in this step's motion.
-	Real     workOn(const Vector3r& force, Real moment) const { return (force.dot(motion_) + moment * turn_) / 2; }
 	bool     hasOutline() const { return moments_.area > 0 && gyration_ > 0; }
 	Vector3r inWorld(const polytope::Vector2& x) const { return x[0] * axis_[0] + x[1] * axis_[1]; }
 	Vector3r acrossNormal(const Vector3r& x) const { return pair_.geom.normal.cross(x); }

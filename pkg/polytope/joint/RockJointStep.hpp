@@ -94,23 +94,22 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedPair {
 
 /// State at the end of the last step, before this one changes it; the shear bed's is in RockJointShear.hpp.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
-	Vector3r force, shearViscous, moment;
-	Real     twistingViscous, normalViscous, elasticNormal, dilation;
+	Vector3r force, normalViscous, shearViscous, rockingMoment;
+	Real     elasticNormal, dilation;
 	bool     wasBond;     ///< the forces were those of a bond of PolytopeBonds, which has failed
 	bool     actedAsBond; ///< they were those of the joint's own bond (RockJointBond.cpp)
 
 	Last(const RockJointPhys& phys, const Vector3r& normal)
-	        : force(phys.normalForce + phys.shearForce), shearViscous(phys.shearViscous), moment(phys.rockingMoment),
-	          twistingViscous(phys.twistingViscous), normalViscous(phys.normalViscous.dot(normal)),
-	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation), wasBond(phys.followsBond),
-	          actedAsBond(phys.bond)
+	        : force(phys.normalForce + phys.shearForce), normalViscous(phys.normalViscous), shearViscous(phys.shearViscous),
+	          rockingMoment(phys.rockingMoment), elasticNormal((phys.normalForce - normalViscous).dot(normal)), dilation(phys.dilation),
+	          wasBond(phys.followsBond), actedAsBond(phys.bond)
 	{
 	}
 };
 
-/// What a step did with energy beyond storing it [J].
+/// What a step did with energy beyond storing it [J]; book() adds the work of the dampers' forces.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::StepWork {
-	Real plastic = 0, normalDamping = 0, shearDamping = 0, rockingDamping = 0;
+	Real plastic = 0, normalDamping = 0, shearDamping = 0;
 	Real stored    = 0;     ///< energy of the springs afterwards
 	bool fractured = false; ///< what is missing then is the energy of fracture
 };

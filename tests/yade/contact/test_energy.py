@@ -148,9 +148,10 @@ def tumble(perArea, turn):
 @pytest.mark.parametrize('perArea', [False, True])
 def testTumblingBlocksBalance(perArea):
 	"""Edges, vertices, faces, a tenth of a block deep; friction and all dampers. The sum is constant but for the rotation's integration;
-	what normal and area create or destroy is in *nonconservative*: from one start to the next it is 0 to 0.2 of the loss, either way."""
+	what the contacts create or destroy is in *nonconservative*: at most 1e-4 of the loss, since each damper's work is taken with the force where
+	it acted (7e-4 with the last force at the present point and normal, and that falls as the step only)."""
 	shares = [tumble(perArea, turn) for turn in (0, 0.01, 0.02, 0.03, 0.05, 0.08)]
-	assert np.mean(np.abs(shares)) < 0.15
+	assert np.max(np.abs(shares)) < 2e-4
 
 
 def testFractureReleasesWhatWasStored():

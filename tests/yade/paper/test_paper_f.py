@@ -134,8 +134,8 @@ def testBudgetsNoticeAnError():
 	[
 		('springs', 'elastPotential'),
 		('normal damper', 'normDampDissip'),
-		('friction and shear damper', 'plastDissip'),
-		('friction and shear damper', 'shearDampDissip'),
+		('friction', 'plastDissip'),
+		('shear damper', 'shearDampDissip'),
 		('sum', 'nonconservative'),
 	],
 )
