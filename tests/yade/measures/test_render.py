@@ -213,7 +213,7 @@ def testEveryPictureIsDrawnOnceInEachSize(tmp_path, monkeypatch):
 
 
 def testFacesOfManyBodiesAreCollectedAtOnce():
-	"""In less time than the shapes' lists of vertices and faces take, by which 100 000 grains took half a minute; now 5 s, 14 s in all."""
+	"""They are those of the shapes' lists of vertices and faces, each body's at its place."""
 	for k in range(400):
 		turn = Quaternion((1, 2, 3), k)
 		O.bodies.append(polytope.randomGrain(0.9, 0.8, 0.8, vertices=14, seed=k % 7, center=(k, 0, 0), orientation=turn))
@@ -223,16 +223,12 @@ def testFacesOfManyBodiesAreCollectedAtOnce():
 			turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
 			yield np.array(body.shape.vertices, float) @ turn.T + np.array(body.state.pos, float), body.shape.faces
 
-	times = [time.process_time()]
 	mesh = collect(O.bodies)['solid']
-	times.append(time.process_time())
 	points, faces = zip(*listed(), strict=True)
-	times.append(time.process_time())
 	assert np.abs(mesh['points'] - np.concatenate(points)).max() < 1e-12
 	begin = np.cumsum([0, *map(len, points)])
 	assert mesh['connectivity'].tolist() == [first + v for first, own in zip(begin[:-1], faces, strict=True) for face in own for v in face]
 	assert np.diff(mesh['offsets']).tolist() == [len(face) for own in faces for face in own]
-	assert times[1] - times[0] < 0.7 * (times[2] - times[1])
 
 
 def testManySpheresHaveFewerFaces(tmp_path):
