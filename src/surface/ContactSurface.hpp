@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "surface/MeetingPlanes.hpp"
 #include "surface/PieceQueue.hpp"
 #include "surface/SurfaceSums.hpp"
 #include "surface/TwinPlanes.hpp"
@@ -119,10 +120,9 @@ private:
 	{
 		reset(sums);
 		queue_.clear();
-		int edge[tolerance::planesInAnEdge];
 		for (int k = 0; k < count; ++k)
-			edge[k] = basis[k];
-		meet(edge, count, true);
+			buffers_.meeting[k] = basis[k];
+		meet(buffers_.meeting, count, true);
 		for (int k = 0; k < planes_.total && everywhere; ++k) {
 			int one = k;
 			if (planes_.offset[k] < R(padOffset) / 2) meet(&one, 1, true);
@@ -173,11 +173,11 @@ private:
 	/// Goes on beyond edge t.
 	POLYTOPE_INLINE void goOn(const SurfacePiece<R, D>& piece, const SurfaceCut<R, D, W>& cut, int t)
 	{
-		int       edge[tolerance::planesInAnEdge];
-		const int tag = cut.tag(t), met = cut.meeting(t, edge + 3, tolerance::planesInAnEdge - 3);
+		const int tag = cut.tag(t), met = cut.meeting(t, buffers_.meeting + 3, buffers_.room - 3);
+		if (met > tolerance::fewMeeting && cut.isPoint(t)) return; // the other edges of that vertex lead to the pieces about it
 		// at the ends of an edge the same planes meet on its other side
 		const int before = cut.tag(t > 0 ? t - 1 : cut.count() - 1), after = cut.tag(t + 1 < cut.count() ? t + 1 : 0);
-		if (met > 0) meetAll(piece, tag, edge, met);
+		if (met > 0) meetAll(piece, cut, t, met);
 		else if (tag == planes_.total) {
 			if (!faces_) return;
 			add(piece.i, tag, piece.j, before, after);
@@ -189,18 +189,27 @@ private:
 		}
 	}
 
-	/// Adds all pairs of the planes that meet in an edge: the piece's two, the edge's own, and `met` more, which are in edge[3] and after.
-	POLYTOPE_INLINE void meetAll(const SurfacePiece<R, D>& piece, int tag, int* edge, int met)
+	/// Adds pairs of the planes that meet in edge t: the piece's two, the edge's own, and `met` more, which are in `meeting` from its third number on. All
+	/// pairs of a few, for where planes meet but for rounding there may be tiny pieces; of more those that have a piece.
+	POLYTOPE_INLINE void meetAll(const SurfacePiece<R, D>& piece, const SurfaceCut<R, D, W>& cut, int t, int met)
 	{
-		const int own[3] = { piece.i, piece.j, tag };
-		int       count  = 0;
-		bool      none   = false;
+		int* const edge   = buffers_.meeting;
+		const int  own[3] = { piece.i, piece.j, cut.tag(t) };
+		int        count  = 0;
+		bool       none   = false;
 		for (int k = 0; k < met + 3; ++k) {
 			const int plane = k < 3 ? own[k] : edge[k];
 			if (plane == planes_.total) none = true;
 			else if (plane >= 0) edge[count++] = plane;
 		}
-		meet(edge, count, none);
+		if (count <= tolerance::fewMeeting) return meet(edge, count, none);
+		for (int k = 0; k < count; ++k)
+			edge[k] = twins_.of(edge[k]);
+		if (none && faces_) edge[count++] = planes_.total;
+		R across[D - 1];
+		cut.across(t, across);
+		const MeetingPlanes<R, D> meeting(planes_, piece, across, edge, count);
+		meeting.neighbours(!all_, [&](int one, int other) POLYTOPE_INLINE_LAMBDA { add(one, other); });
 	}
 
 	template <class Cut>

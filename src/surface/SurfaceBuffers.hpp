@@ -25,6 +25,7 @@ template <class R, int D> struct SurfaceBuffers {
 	int* lineTag;       ///< of each line: its plane
 	int* edge[2];       ///< of a piece's vertices before and after a cut: the line of the edge that begins there
 	int* twin;          ///< of each plane: the one that stands for it, −1: not looked for yet
+	int* meeting;       ///< planes that meet in an edge
 	int* queue;         ///< pieces to look at: both planes
 	int* slot;          ///< where in the queue a pair of planes is, plus one; 0: free
 
@@ -49,7 +50,7 @@ template <class R, int D> struct SurfaceBuffers {
 		return 3 * paddedLength(planes) + (2 * vertexRows + 3) * vertexRoom(planes) + 4 * clippedRoom(planes) + (D + 2) * planes
 		        + planes;
 	}
-	static int indicesNeeded(int planes) { return 3 * vertexRoom(planes) + planes + (queued + 4) * (slots(planes) / 4); }
+	static int indicesNeeded(int planes) { return 4 * vertexRoom(planes) + planes + (queued + 4) * (slots(planes) / 4); }
 
 	/// Lays the buffers into memory of numbersNeeded() and indicesNeeded(), whatever is in it.
 	SurfaceBuffers(int total, R* numbers, int* indices)
@@ -72,6 +73,7 @@ template <class R, int D> struct SurfaceBuffers {
 		cell    = take(numbers, (D + 2) * planes);
 		dropped = take(numbers, planes);
 		twin    = take(indices, planes);
+		meeting = take(indices, room);
 		queue   = take(indices, queued * pieces);
 		slot    = take(indices, 4 * pieces);
 	}

@@ -18,7 +18,7 @@ public:
 	/// The polygon of the piece whose planes are in the buffers' rows; it uses these rows up. `reach`: half the square's width; `deepest`: the
 	/// largest p; `known`: planes that meet the piece, as far as is known.
 	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 3>& buffers, R reach, R deepest, const int* known)
-	        : buffers_(buffers), deepest_(deepest)
+	        : buffers_(buffers), reach_(reach), deepest_(deepest)
 	{
 		square(reach);
 		for (int k = 0; k < tolerance::knownPlanes && count_ > 2; ++k)
@@ -39,6 +39,22 @@ public:
 	}
 	/// Plane of edge t, or −1: it is an edge of the square.
 	int tag(int t) const { return buffers_.lineTag[buffers_.edge[now_][t]]; }
+
+	/// Unit vector across edge t.
+	POLYTOPE_INLINE void across(int t, R* uv) const
+	{
+		const int line = buffers_.edge[now_][t];
+		const R   a = buffers_.line[0][line], b = buffers_.line[1][line], length = sqrt(a * a + b * b);
+		uv[0] = length > 0 ? a / length : R(1);
+		uv[1] = length > 0 ? b / length : R(0);
+	}
+
+	/// Whether edge t is no longer than where planes meet is certain.
+	POLYTOPE_INLINE bool isPoint(int t) const
+	{
+		const int next = t + 1 < count_ ? t + 1 : 0;
+		return abs(at(U, next) - at(U, t)) + abs(at(Y, next) - at(Y, t)) <= close_;
+	}
 
 	/// Writes the planes other than i, j and the edge's own that meet in edge t; the plane of no pressure counts as one. Returns how many.
 	POLYTOPE_INLINE int meeting(int t, int* found, int room) const { return touched_ ? meetingAt(t, found, room) : 0; }
@@ -135,41 +151,65 @@ private:
 		if (least < 0 && lines_ < buffers_.room) split(makeLine(plane));
 	}
 
-	/// Splits the polygon by the line, whose slacks at the vertices are known. A convex polygon is left and entered once, but for rounding.
+	/// Splits the polygon by the line, whose slacks at the vertices are known. A convex polygon is left and entered once, and so it is here: where many planes
+	/// meet in a vertex, rounding makes several of it, and signs of their slacks change to and fro. Of very many no more are made.
 	void split(int line)
 	{
-		const int      count = count_, room = buffers_.room;
+		const int      count = count_;
 		const R *const u = buffers_.vertex[now_][U], *const v = buffers_.vertex[now_][Y],
 		               *const slack = buffers_.vertex[now_][Slack];
 		const int* const      edge  = buffers_.edge[now_];
 		R *const toU = buffers_.vertex[1 - now_][U], *const toV = buffers_.vertex[1 - now_][Y];
 		int* const toEdge = buffers_.edge[1 - now_];
-		int        kept   = 0;
-		for (int t = 0; t < count && kept + 2 <= room; ++t) {
-			const int  next = t + 1 < count ? t + 1 : 0;
-			const R    here = slack[t], there = slack[next];
-			const bool in = here >= 0, nextIn = there >= 0;
-			if (in) {
-				toU[kept]      = u[t];
-				toV[kept]      = v[t];
-				toEdge[kept++] = edge[t];
-			}
-			if (in == nextIn) continue;
-			R crossing[2];
-			if (!cross(edge[t], line, R(tolerance::crossingLines), crossing)) {
-				const R part = here / (here - there);
-				crossing[0]  = u[t] + part * (u[next] - u[t]);
-				crossing[1]  = v[t] + part * (v[next] - v[t]);
-			}
-			toU[kept] = crossing[0];
-			toV[kept] = crossing[1];
-			// going out, the new edge begins; coming in, the old one goes on
-			toEdge[kept++] = in ? line : edge[t];
+		const auto after  = [count](int t) { return t + 1 < count ? t + 1 : 0; };
+		const auto before = [count](int t) { return t > 0 ? t - 1 : count - 1; };
+		int        first  = 0;
+		for (int t = 1; t < count; ++t)
+			if (slack[t] < slack[first]) first = t;
+		int beyond = 1, last = first; // vertices beyond the line, one after the other about the farthest
+		for (; beyond < count && slack[after(last)] < 0; ++beyond)
+			last = after(last);
+		for (; beyond < count && slack[before(first)] < 0; ++beyond)
+			first = before(first);
+		R out[2], in[2];
+		if (beyond < count) {
+			crossing(before(first), line, out);
+			crossing(last, line, in);
+			if (beyond == 1 && count > tolerance::fewMeeting && isSame(first, out) && isSame(first, in)) return;
+		}
+		int kept = 0;
+		for (int t = after(last), left = count - beyond; left > 0; t = after(t), --left) {
+			toU[kept]      = u[t];
+			toV[kept]      = v[t];
+			toEdge[kept++] = edge[t];
+		}
+		if (kept > 0) {
+			toU[kept]      = out[0];
+			toV[kept]      = out[1];
+			toEdge[kept++] = line;
+			toU[kept]      = in[0];
+			toV[kept]      = in[1];
+			toEdge[kept++] = edge[last];
 		}
 		now_   = 1 - now_;
 		count_ = kept;
 		setCloseness();
 	}
+
+	/// Where edge t, whose ends are on both sides of the line, crosses it.
+	void crossing(int t, int line, R* uv) const
+	{
+		if (!cross(buffers_.edge[now_][t], line, R(tolerance::crossingLines), uv)) {
+			const int next = t + 1 < count_ ? t + 1 : 0;
+			const R   here = buffers_.vertex[now_][Slack][t], there = buffers_.vertex[now_][Slack][next],
+			        part = here == there ? R(0) : minOf<R>(R(1), maxOf<R>(R(0), here / (here - there)));
+			uv[0]        = at(U, t) + part * (at(U, next) - at(U, t));
+			uv[1]        = at(Y, t) + part * (at(Y, next) - at(Y, t));
+		}
+	}
+
+	/// Whether a place is that of vertex t but for rounding.
+	bool isSame(int t, const R* uv) const { return abs(uv[0] - at(U, t)) + abs(uv[1] - at(Y, t)) <= R(tolerance::sameCorner) * reach_; }
 
 	/// Where two lines cross; false where the sine of the angle between them is less than `sharp`.
 	bool cross(int first, int second, R sharp, R* uv) const
@@ -200,7 +240,7 @@ private:
 	}
 
 	const SurfaceBuffers<R, 3>& buffers_;
-	R                           deepest_, close_ = 0;
+	R                           reach_, deepest_, close_ = 0;
 	int                         count_ = 0, lines_ = 0, now_ = 0;
 	bool                        touched_ = false; ///< a plane met two vertices
 };

@@ -34,6 +34,10 @@ public:
 	POLYTOPE_INLINE void vertex(int t, R* u) const { u[0] = end_[t]; }
 	int                  tag(int t) const { return tag_[t]; }
 
+	POLYTOPE_INLINE void across(int, R* u) const { u[0] = 1; }
+	/// An end is one, and no other leads to the pieces about it.
+	bool isPoint(int) const { return false; }
+
 	POLYTOPE_INLINE int meeting(int t, int* found, int room) const
 	{
 		const R close = R(tolerance::meetingPlanes) * (abs(end_[t]) + deepest_);

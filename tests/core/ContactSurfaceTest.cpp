@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "surface/ContactSurface.hpp"
+#include "ShapeSamples.hpp"
 #include "SurfaceOfPair.hpp"
 
 #include <gtest/gtest.h>
@@ -189,6 +190,29 @@ TEST(ContactSurface, IsExactWhereOneBodyIsInTheOther)
 	expectExact<3>(inside, 100, 90, 75);
 }
 
+/// A pyramid on a floor's face at z = 0, which it overlaps by `depth`: on its base or, upside down, on its tip.
+Pair pyramidOnFloor(int sides, Real radius, Real height, Real depth, bool onTip)
+{
+	Pair pair;
+	pair.shape[0] = ConvexShape::shared(cuboid(8, 8, 2), 0);
+	pair.shape[1] = ConvexShape::shared(pyramid(sides, radius, height), 0);
+	if (onTip) pair.rotation[1] = Eigen::AngleAxis<Real>(Real(M_PI), Vector3::UnitX()).toRotationMatrix();
+	pair.centre2 = Vector3(0, 0, 2 - depth + (onTip ? height : Real(0)));
+	return pair;
+}
+
+/// The sides of a pyramid meet in its tip, and the places where all of them have the same slack are a line through it.
+TEST(ContactSurface, IsExactForPyramidsOfManySides)
+{
+	expectExact<3>(
+	        [](int t, auto& r) {
+		        const int  sides = t % 2 ? 20 : 40;
+		        const Pair pair  = pyramidOnFloor(sides, decades(r, -1, 0), 1, decades(r, -6, -2), t % 4 < 2);
+		        return t % 3 ? turned(pair, randomRotation(r)) : pair;
+	        },
+	        16, 16);
+}
+
 TEST(ContactSurface, IsExactForStackedCubes) { expectExact<3>(stackedPair, 60, 60, 100); }
 
 /// Blocks in a row or column as they come to rest: their sides lie in line but for some roundings of their places, or more.
@@ -288,6 +312,48 @@ TEST(ContactSurface, OfAFaceOnAFaceIsAnElasticFoundation)
 		EXPECT_NEAR(6 * own.sums.level / (own.sums.volume * h), 1, h);
 		EXPECT_EQ(own.sums.pieces, 5);
 	}
+}
+
+/// Integral over [from, to] of what is a polynomial of up to the fifth degree.
+Real integral(Real from, Real to, const std::function<Real(Real)>& of)
+{
+	const Real middle = (from + to) / 2, half = (to - from) / 2, far = half * std::sqrt(Real(3) / 5);
+	return half / 9 * (5 * of(middle - far) + 8 * of(middle) + 5 * of(middle + far));
+}
+
+/// Feasible with the pressure s is a frustum or a pyramid, whose area at a height is N tan(π/N) times the square of its inscribed radius.
+TEST(ContactSurface, OfAConeOfManySidesIsAsItsClosedFormSays)
+{
+	std::mt19937_64 random(75);
+	const Real      radius = Real(0.5), height = 1, tangent = radius / height, cosine = 1 / std::sqrt(1 + tangent * tangent),
+	           sine = tangent * cosine;
+	for (const int sides : { 30, 48, 80, 100, 160, 200, 300, 1000 })
+		for (const bool onTip : { false, true })
+			for (int trial = 0; trial < (sides < 200 ? 6 : 1); ++trial) {
+				SCOPED_TRACE(testing::Message()
+				        << sides << " sides, on its " << (onTip ? "tip" : "base") << ", trial " << trial);
+				const Real             h = decades(random, -6, -2), shape = sides * std::tan(Real(M_PI) / sides);
+				const SurfaceOfPair<3> own(turned(pyramidOnFloor(sides, radius, height, h, onTip), randomRotation(random)));
+				const Real             steep = 1 + 1 / sine, c = shape * tangent * tangent;
+				Real volume = c * std::pow(h, 4) / (12 * steep), level = c * std::pow(h, 5) / (60 * steep * steep);
+				if (!onTip) {
+					const auto above = [&](Real s) {
+						return integral(s, h - s,
+						        [&](Real z) { return shape * std::pow(radius - z * tangent - s / cosine, 2); });
+					};
+					volume = integral(0, h / 2, above);
+					level  = integral(0, h / 2, [&](Real s) { return s * above(s); });
+				}
+				// about the line in which the sides meet there are pieces as narrow as rounding (MeetingPlanes.hpp)
+				const Real rounding = 64 * tolerance::rounding / own.deepest + (onTip ? Real(1e-9) : Real(0));
+				EXPECT_EQ(own.status, SurfaceStatus::Found);
+				EXPECT_EQ(own.sums.pieces, onTip ? sides : sides + 1);
+				EXPECT_NEAR(own.sums.volume / volume, 1, rounding);
+				EXPECT_NEAR(own.sums.level / level, 1, rounding);
+				if (onTip) {
+					EXPECT_NEAR(own.force().norm() / (4 * volume / h), 1, rounding);
+				}
+			}
 }
 
 TEST(ContactSurface, PressesAlongTheNormalOfTheOnlyFace)

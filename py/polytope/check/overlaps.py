@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
-from yade import Body, Box, Facet, Polytope, Sphere, Wall
+from yade import Body, Box, Facet, Polytope, Sphere, Wall, _polytope
 
 from ..bodies.halfSpaces import halfSpacesOf
 from ..bodies.inSphere import depthInSphere
@@ -17,7 +17,7 @@ from ..scene.movers import sameClump
 from .overlapEnergy import Thrown
 from .standIns import standIn
 
-__all__ = ['coincidence', 'mayMeet', 'overlaps', 'sortedOffsets']
+__all__ = ['coincidence', 'mayMeet', 'overlaps', 'sharedFaces', 'sortedOffsets']
 
 larger = 2.0
 """Circumscribed radius over another body's above which the other is looked for by the half-spaces of the larger one: their middles say little."""
@@ -28,6 +28,10 @@ looks = 3000
 onePlace = 1e-9
 """Distance over the circumscribed radius, or over a period, up to which two bodies are in one place, and two shapes are one: made elsewhere
 they differ by rounding."""
+
+oneFace = 1e-4
+"""Angle [rad], and distance over the inscribed radius, up to which faces of two members of a clump lie in one plane; and overlap over that radius
+from which on they share a part of it."""
 
 Rows = collections.namedtuple('Rows', 'bodies places shifts')
 """Polytopes with where they are looked at [m], and by how much that differs from their state's position: in a periodic cell, images as well."""
@@ -80,6 +84,33 @@ def overlaps(scene):
 		if scene.O.interactions.has(*pair, True):
 			advice = f'a higher normalStiffness, if they came to be there by their weight, load or speed; else {advice}'
 		yield 'overlap', f'body {pair[0]} and body {pair[1]} {how}{more}: {speed}', advice
+
+
+def sharedFaces(scene):
+	"""Members of a clump that overlap with faces in one plane: what presses on the part of it that is of both presses on each."""
+	rows = _rows(scene)
+	found = [
+		(rows.bodies[i].id, rows.bodies[j].id)
+		for i, j in _candidates(rows)
+		if sameClump(rows.bodies[i], rows.bodies[j]) and not rows.shifts[[i, j]].any() and _shareFace(rows.bodies[i], rows.bodies[j])
+	]
+	if found:
+		more = f', and {len(found) - 1} pairs more' if len(found) > 1 else ''
+		one, other = sorted(found[0])
+		seen = f'members {one} and {other} of a clump overlap, with faces in one plane{more}: where that is a face of both, a contact has twice the stiffness, and its energy changes where one of them ends'
+		yield 'overlapping members', seen, 'members that touch, and do not overlap there'
+
+
+def _shareFace(one, other):
+	size = min(float(body.shape.inscribedRadius) for body in (one, other))
+	try:
+		if not float(_polytope.contact(one, other, contactModel='boon2012', contactPoint='chebyshevCentre').depth) > oneFace * size:
+			return False
+	except ValueError:  # a polygon and a polyhedron
+		return False
+	(normals, offsets), (itsNormals, itsOffsets) = (halfSpacesOf(body, np.array(one.state.pos, float)) for body in (one, other))
+	parallel = np.linalg.norm(normals[:, None] - itsNormals[None], axis=2) < oneFace
+	return bool((parallel & (abs(offsets[:, None] - itsOffsets[None]) < oneFace * size)).any())
 
 
 def _ofPolytopes(scene, thrown):

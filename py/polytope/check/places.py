@@ -16,7 +16,7 @@ from ..scene.present import isPerArea, jointMakers
 from ..scene.radii import inscribedRadius
 from ..scene.vertices import rotationMatrix, worldVertices
 from .neighbours import looks, touching, touchingPairs
-from .overlaps import coincidence, overlaps
+from .overlaps import coincidence, overlaps, sharedFaces
 
 __all__ = ['notNumbers', 'overlapShare', 'placeFindings']
 
@@ -29,7 +29,7 @@ half = 0.5
 
 
 def placeFindings(scene):
-	for one in (coincidence, overlaps, spanning, stiffness, suddenGravity):
+	for one in (coincidence, overlaps, sharedFaces, spanning, stiffness, suddenGravity):
 		yield from one(scene)
 
 

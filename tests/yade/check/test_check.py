@@ -854,6 +854,22 @@ def testASmallBodyPlacedIntoALargeOne(height, deep, aside):
 		assert 'overlap' not in [one.what for one in polytope.check(O)]
 
 
+@pytest.mark.parametrize(
+	'second, half, shared',
+	[((3.5, 0, 2), (1, 0.5, 0.5), True), ((4, 0, 2), (1, 0.5, 0.5), False), ((2, 0, 2), (0.2, 2, 0.2), False), ((3, 0.7, 2), (0.3, 1, 0.5), True)],
+)
+def testMembersOfAClumpWithAFaceInCommon(second, half, shared):
+	"""Two bars one behind the other that lie in each other; that touch; a cross without faces in one plane; a T."""
+	scene(lambda: [])
+	bars = [polytope.cuboid((2, 0, 2), (1, 0.5, 0.5)), polytope.cuboid(second, half)]
+	polytope.clump(bars)
+	if not shared:
+		assert 'overlapping members' not in [one.what for one in polytope.check(O)]
+		return
+	found = next(one for one in polytope.check(O) if one.what == 'overlapping members')
+	assert 'twice the stiffness' in found.seen and 'touch' in found.advice
+
+
 def thrownCube(depth, support, perArea=True, size=0.04):
 	"""A cube so deep in what it stands on; the finding, and the greatest speed upwards without damping."""
 	O.reset()
@@ -956,7 +972,7 @@ def testBodiesThatMeetAcrossTheBoundary(place, what, sheared):
 
 def testPartsOfAClumpMayOverlap():
 	scene()
-	polytope.clump([polytope.cuboid((3, 0, 2), (0.5, 0.5, 0.5)), polytope.cuboid((3.1, 0, 2), (0.5, 0.4, 0.5))])
+	polytope.clump([polytope.cuboid((3, 0, 2), (0.5, 0.5, 0.5)), polytope.cuboid((3.1, 0, 2.05), (0.5, 0.4, 0.4))])
 	assert not polytope.check(O)
 
 

@@ -289,6 +289,39 @@ namespace {
 		};
 	}
 
+	/// Cones of up to 40 sides, regular or not: all sides meet in the tip, and of regular ones they have the same slack along a line. On a box, half of them
+	/// upright on their base or tip.
+	Poses cones(Random& random)
+	{
+		const int  sides   = 5 + int(random() % 36);
+		const Real slope   = decades(random, -1, 1);
+		const bool regular = random() % 2;
+		HalfSpaces set;
+		const auto add = [&](const Vector3& normal, Real offset) {
+			set.normals.push_back(normal);
+			set.offsets.push_back(offset);
+		};
+		add(-Vector3::UnitZ(), Real(0.25));
+		for (int k = 0; k < sides; ++k) {
+			const Real    angle  = 2 * Real(M_PI) * (k + (regular ? Real(0) : uniform(random, 0, Real(0.5)))) / sides;
+			const Vector3 normal = Vector3(std::cos(angle), std::sin(angle), slope).normalized();
+			add(normal, Real(0.75) * normal[2]);
+		}
+		const Shape box = shapeOf(cuboid(1, 1, Real(0.4)), 1, random), cone = shapeOf(set, decades(random, -3, 0), random);
+		return [=](Random& r) {
+			Pair    pair      = anyOrientation(box, cone, r);
+			Vector3 direction = randomDirection(r, 3);
+			if (r() % 2) {
+				const Real up    = r() % 2 ? Real(1) : Real(-1);
+				const auto turn  = Eigen::AngleAxis<Real>(uniform(r, 0, 6), Vector3::UnitZ()).toRotationMatrix();
+				pair.rotation[1] = pair.rotation[0] * turn * Vector3(1, up, up).asDiagonal();
+				direction        = pair.rotation[0].col(2);
+			}
+			approach(pair, direction, someInfeasibility(pair, r));
+			return r() % 2 ? pair : swapped(pair);
+		};
+	}
+
 	/// Coincident, concentric, or one inside the other.
 	template <int D> Poses inside(Random& random)
 	{
@@ -322,6 +355,7 @@ const std::vector<Family>& families()
 		{ "nearly-parallel", nearlyParallel<3> },
 		{ "duplicates", duplicates<3> },
 		{ "thin", thin },
+		{ "cones", cones },
 		{ "inside", inside<3> },
 		{ "hulls-2d", hulls<2> },
 		{ "half-spaces-2d", halfSpaces<2> },
