@@ -2,7 +2,7 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
-*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces:
+*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump* (*withoutOverlap*); random grains: *randomGrain*, *grains*, *cloud*; fixed pieces:
 *plates*, *tube*, *terrain*; a mesh as YADE's facets: *facets*; a body of an extension's class: *withShape*; a rock mass cut by joints:
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi
 cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; linings and
@@ -35,6 +35,7 @@ from .bodies.shapeFiles import readShapes, writeShapes
 from .bodies.solids import frustum, plates, prism, tube
 from .bodies.terrain import terrain
 from .bodies.voronoi import VoronoiCells, voronoi
+from .bodies.withoutOverlap import withoutOverlap
 from .bonding.bolting import Dowel, Grout, bolt, boltArrays, bolts
 from .bonding.bonds import bond, bonds
 from .breakage.byStress import breakGrains
@@ -179,5 +180,6 @@ __all__ = [
 	'voronoi',
 	'water',
 	'withShape',
+	'withoutOverlap',
 	'writeShapes',
 ]

@@ -98,7 +98,7 @@ def sharedFaces(scene):
 		more = f', and {len(found) - 1} pairs more' if len(found) > 1 else ''
 		one, other = sorted(found[0])
 		seen = f'members {one} and {other} of a clump overlap, with faces in one plane{more}: where that is a face of both, a contact has twice the stiffness, and its energy changes where one of them ends'
-		yield 'overlapping members', seen, 'members that touch, and do not overlap there'
+		yield 'overlapping members', seen, 'polytope.clump(polytope.withoutOverlap(parts)): parts that fill the same and touch'
 
 
 def _shareFace(one, other):

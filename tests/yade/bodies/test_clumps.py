@@ -397,3 +397,69 @@ def testWhatIsRefused(mesh, objects, tmp_path, monkeypatch):
 		polytope.fromMesh(tmp_path / 'open.stl', parts='objects')
 	with pytest.warns(UserWarning, match=r'not convex: it has 4 m³, its hull, which the body is, 5 m³; polytope.clump'):
 		polytope.fromMesh(mesh, scale=0.01)
+
+
+# ------------------------------------------------------------------------------------------------ without overlap
+
+overlapping = {
+	'bars one behind the other': lambda: [box((0, 0, 0), (4, 2, 2)), box((2, 0, 0), (6, 2, 2))],
+	'L': lambda: [box((0, 0, 0), (4, 1, 1)), box((0, 0, 0), (1, 3, 1))],
+	'cross': lambda: [box((0, 2, 0), (5, 3, 1)), box((2, 0, 0), (3, 5, 1))],
+	'three about a corner': lambda: [box((0, 0, 0), (3, 1, 1)), box((0, 0, 0), (1, 3, 1)), box((0, 0, 0), (1, 1, 3))],
+	'turned': lambda: [box((0, 0, 0), (4, 2, 2)), polytope.cuboid((3, 1, 1), (1.5, 0.4, 0.4), orientation=Quaternion((1, 2, 3), 0.7))],
+	'solids': lambda: [polytope.regular(20, 1), polytope.regular(12, 1, (0.9, 0.2, 0)), polytope.regular(8, 1, (0.3, 0.8, 0.1))],
+	'polygons': lambda: [rectangle((0, 0), (4, 1)), rectangle((0, 0), (1, 3))],
+}
+
+
+@pytest.mark.parametrize('name', overlapping)
+def testBodiesWithoutOverlapFillTheSame(name):
+	bodies = overlapping[name]()
+	whole = polytope.bodies.clumps.volumeOfUnion(bodies)
+	pieces = polytope.withoutOverlap(bodies)
+	assert pieces[0] is bodies[0]
+	assert sum(float(piece.shape.volume) for piece in pieces) == pytest.approx(whole, rel=1e-9)
+	assert all(float(piece.state.mass) == pytest.approx(density * float(piece.shape.volume), rel=1e-9) for piece in pieces)
+	deep = [-float(polytope.contact(one, other).infeasibility) for k, one in enumerate(pieces) for other in pieces[:k]]
+	assert max(deep) < 1e-9
+
+
+def testBodiesThatTouchAreLeftAsTheyAre():
+	bodies = [box((0, 0, 0), (2, 1, 1)), box((2, 0, 0), (4, 1, 1), velocity=(1, 2, 3))]
+	assert polytope.withoutOverlap(bodies) == bodies
+	assert polytope.withoutOverlap([bodies[0], box((0.5, 0.2, 0.2), (1, 0.8, 0.8))]) == bodies[:1], 'one within another'
+
+
+@pytest.mark.parametrize('perArea', [True, False])
+def testABarOfOverlappingMembersCutApartLiesAsOneBody(perArea):
+	"""Its area, force and depth are those of one bar; with members that overlap by half the depth is less, as of more springs."""
+	stiffness = 1e7
+	depths = []
+	for make in (lambda parts: parts, polytope.withoutOverlap):
+		O.reset()
+		joint(density=density, normalStiffness=stiffness)
+		loop(perArea, normalDamping=0.3, gravity=(0, 0, -gravity), damping=0.4)
+		O.bodies.append(polytope.cuboid((0, 0, -1), (9, 9, 1), fixed=True))
+		number, members = polytope.clump(make([box((0, 0, 0), (0.4, 0.2, 0.2)), box((0.2, 0, 0), (0.6, 0.2, 0.2))]))
+		stepper()
+		start = float(O.bodies[number].state.pos[2])
+		O.run(3000, True)
+		depths.append(start - float(O.bodies[number].state.pos[2]))
+		force = sum(i.phys.normalForce.norm() for i in O.interactions if i.isReal)
+		assert force == pytest.approx(density * 0.024 * gravity, rel=1e-3)
+	assert depths[1] == pytest.approx(density * 0.024 * gravity / stiffness / (0.12 if perArea else 1), rel=2e-3)
+	assert depths[0] < 0.85 * depths[1]
+
+
+@pytest.mark.parametrize(
+	'wrong, said',
+	[
+		(lambda: [], 'must be a list'),
+		(lambda: 3, 'must be a list'),
+		(lambda: [rectangle((0, 0), (1, 1)), box((0, 0, 0), (1, 1, 1))], 'be all polyhedra, or all polygons'),
+		(lambda: [O.bodies[O.bodies.append(box((0, 0, 0), (1, 1, 1)))]], 'not be in the scene'),
+	],
+)
+def testWhatCannotBeCutApartIsRefused(wrong, said):
+	with pytest.raises(ValueError, match=f'^bodies: .*{said}'):
+		polytope.withoutOverlap(wrong())
