@@ -10,7 +10,7 @@ __all__ = ['modules', 'topics', 'write']
 topics = {
 	'bodies': (
 		'Bodies',
-		'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes writeShapes clump split withShape',
+		'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes writeShapes clump withoutOverlap split withShape',
 	),
 	'ground': ('Fixed pieces and ground', 'plates tube terrain facets'),
 	'grains': ('Random grains', 'randomGrain grains cloud'),
