@@ -175,7 +175,7 @@ private:
 		if (beyond < count) {
 			crossing(before(first), line, out);
 			crossing(last, line, in);
-			if (beyond == 1 && count > tolerance::fewMeeting && isSame(first, out) && isSame(first, in)) return;
+			if (beyond == 1 && count > tolerance::fewCorners && isSame(first, out) && isSame(first, in)) return;
 		}
 		int kept = 0;
 		for (int t = after(last), left = count - beyond; left > 0; t = after(t), --left) {

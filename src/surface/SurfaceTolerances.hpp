@@ -75,8 +75,9 @@ constexpr int knownPlanes = 3;
 /// Planes that meet in one edge of a piece of which all pairs are looked at; of more, those that are neighbours about the edge (MeetingPlanes.hpp).
 constexpr int fewMeeting = 16;
 
-/// × half the width of the square that is cut to a piece: two vertices of a polygon which has more than `fewMeeting` of them are one.
+/// × half the width of the square that is cut to a piece: two vertices of a polygon which has more than so many are one.
 constexpr Real sameCorner = 2 * rounding;
+constexpr int  fewCorners = 8;
 
 /// Sine of the angle between two directions to normals of such planes below which rounding may have exchanged them: the polygon of 1e4 sides has 1e-4.
 constexpr Real crossingPlanes = 1e-6;
