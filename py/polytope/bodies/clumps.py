@@ -38,6 +38,8 @@ def clump(parts):
 		raise ValueError('parts: must be a list of polyhedra or of polygons, as polytope.cuboid, polytope.polygon and other builders make')
 	if len({_plane(part) for part in parts}) > 1:
 		raise ValueError('parts: must all be polyhedra, or all polygons of one thickness and in one plane, with the same z')
+	if len({id(part) for part in parts}) < len(parts):
+		raise ValueError('parts: the same body is there twice; each part is a body of its own')
 	if any(part.id >= 0 for part in parts):
 		raise ValueError(
 			'parts: must not be in the scene yet; O.bodies.clump makes clumps of bodies that are, with the sum of their masses'

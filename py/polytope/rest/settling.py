@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene brought to rest under its loads, before its joints have to bear them."""
 
+import math
+
 from tqdm import tqdm
 from yade import O
 
@@ -92,6 +94,8 @@ def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 				O.step()  # O.run(…, wait=True) looks only every 40 ms whether it is done
 			taken += now
 			force, fading = unrest.look(now), bool(relaxing())
+			if math.isnan(force):
+				raise NotAtRest('bodies: the unbalanced force is not a number, as where a position, velocity or force is none; polytope.check(O) names such bodies')
 			adapt()
 			bar.set_postfix_str(f'unbalanced force {force:.2g} for {unbalanced:g}', refresh=False)
 			bar.update(now)
@@ -106,6 +110,8 @@ def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 			if lost:
 				raise NotAtRest(f'bodies: {told(lost)}; {remedy(lost)}', lost)
 	left = unrest.moving()
+	if not left:
+		raise NotAtRest(f'steps: {taken} are too few to tell that bodies are at rest and stay so (unbalanced force {force:.2g} for {unbalanced:g}); more steps')
 	raise NotAtRest(
 		f'steps: not at rest after {taken} (unbalanced force {force:.2g} for {unbalanced:g}): {told(left)}; more steps, or {remedy(left)}',
 		left,

@@ -5,10 +5,12 @@ import math
 import numbers
 import time
 
+import numpy as np
 from tqdm import tqdm
-from yade import O
+from yade import O, PolytopeTimeStepper
 
-from ..arguments import namedArguments
+from ..arguments import namedArguments, warn
+from ..measures.arrays import arrays
 from ..precision import isNumber, real
 
 __all__ = ['run']
@@ -16,6 +18,9 @@ __all__ = ['run']
 heard = 0.4
 """Seconds of the clock after which a part of the run ends. Python hears Ctrl-C between two parts alone, and each costs up to 0.04 s, for
 YADE looks so seldom whether it is done."""
+
+manySteps = 1e6
+"""Steps to a time above which a scene where nothing limits the step was not meant to take so many."""
 
 
 @namedArguments
@@ -30,6 +35,9 @@ def run(steps=None, until=None, every=100):
 
 	The steps are those of O.run or O.step, bit for bit. As with O.run, an engine that calls O.pause() ends it, and so does O.stopAtTime;
 	O.stopAtIter is cleared.
+
+	A warning names a body whose position or velocity is no number in the end, and tells of a time that is more than a million steps away while nothing
+	limits the time step.
 
 	:param int steps: so many; with *until* the most to be taken
 	:param until: time (O.time) at which to end [s], in the first step that reaches it; or a function without arguments that returns
@@ -46,7 +54,14 @@ def run(steps=None, until=None, every=100):
 	timed = until is not None and not callable(until)
 	_checkScene(timed)
 	if timed:
-		return _untilTime(real(until), limit)
+		reached = _untilTime(real(until), limit)
+	else:
+		reached = _counted(limit, until, steps, every)
+	_tellNotNumbers()
+	return reached
+
+
+def _counted(limit, until, steps, every):
 	with tqdm(total=None if steps is None else limit, unit=' steps', disable=None, leave=False) as bar:
 		if until is None:
 			return _steps(limit, bar.update)
@@ -61,10 +76,31 @@ def _untilTime(until, limit):
 		try:
 			if until > O.time and not 0 < own < until:
 				O.stopAtTime = until
-			_steps(limit, lambda _: bar.update(float(O.time) - bar.n), lambda: O.time >= until)
+			far = until - O.time > manySteps * O.dt
+			if not far or _steps(min(1, limit), lambda _: None):
+				if far:
+					_tellUnlimited(until)
+					limit -= 1
+				_steps(limit, lambda _: bar.update(float(O.time) - bar.n), lambda: O.time >= until)
 			return O.time >= until
 		finally:
 			O.stopAtTime = own if own > O.time else 0
+
+
+def _tellUnlimited(until):
+	"""After a step, in which the stepper has looked."""
+	steppers = [engine for engine in O.engines if isinstance(engine, PolytopeTimeStepper) and not engine.dead]
+	far = (until - O.time) / O.dt
+	if far > manySteps and steppers and not any(engine.limitedBy for engine in steppers):
+		warn(f'until: {float(far):.2g} steps away, for nothing limits the time step: it is still {float(O.dt):.2g} s; set O.dt')
+
+
+def _tellNotNumbers():
+	bodies = arrays().bodies
+	lost = ~np.isfinite(np.hstack([bodies.positions, bodies.velocities, bodies.angularVelocities])).all(axis=1)
+	if lost.any():
+		more = f', and of {lost.sum() - 1} bodies more' if lost.sum() > 1 else ''
+		warn(f'run: position or velocity of body {bodies.ids[lost.argmax()]}{more} is not a number; polytope.check(O) tells what it can be')
 
 
 def _untilTrue(until, limit, every, show):

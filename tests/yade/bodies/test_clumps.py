@@ -463,3 +463,10 @@ def testABarOfOverlappingMembersCutApartLiesAsOneBody(perArea):
 def testWhatCannotBeCutApartIsRefused(wrong, said):
 	with pytest.raises(ValueError, match=f'^bodies: .*{said}'):
 		polytope.withoutOverlap(wrong())
+
+
+def testABodyThatIsTwiceAmongThePartsIsRefused():
+	part = box((0, 0, 0), (1, 1, 1))
+	with pytest.raises(ValueError, match='^parts: the same body is there twice'):
+		polytope.clump([part, part])
+	assert len(O.bodies) == 0

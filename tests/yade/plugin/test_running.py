@@ -4,6 +4,7 @@
 import math
 import subprocess
 import sys
+import warnings
 
 import pytest
 import yade
@@ -150,3 +151,33 @@ def testCtrlCIsHeard():
 	done = subprocess.run([sys.executable, '-c', start + interrupted], capture_output=True, text=True, timeout=300)
 	assert done.returncode == 0, done.stderr
 	assert done.stdout.split('heard')[1].split() == ['True', 'False', 'True', '10'], done.stdout
+
+
+def testATimeFarAwayInAStepThatNothingLimitsIsTold():
+	"""YADE's own step is 1e-8 s: a scene without a body that moves went on for minutes, without a word."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.5))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
+	O.engines = polytope.engines()
+	O.dt = 1e-8
+	with pytest.warns(UserWarning, match='^until: .* nothing limits the time step: .* set O.dt'):
+		assert polytope.run(10, until=1) is False
+	assert O.iter == 10
+	O.dt = 1e-3
+	with warnings.catch_warnings():
+		warnings.simplefilter('error')
+		assert polytope.run(until=0.1) is True
+
+
+def testATimeFarAwayInALimitedStepIsNotTold(falling):
+	O.dt = 1e-9  # until the stepper has looked
+	with warnings.catch_warnings():
+		warnings.simplefilter('error')
+		assert polytope.run(3, until=10) is False
+	assert O.iter == 3
+
+
+@pytest.mark.parametrize('how', [{'steps': 2}, {'until': 1e-3}, {'until': lambda: O.iter > 3}])
+def testABodyThatIsNoLongerAnywhereIsTold(falling, how):
+	O.bodies[falling].state.vel = (math.nan, 0, 0)
+	with pytest.warns(UserWarning, match=f'^run: position or velocity of body {falling} is not a number'):
+		polytope.run(**how)

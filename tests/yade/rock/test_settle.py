@@ -91,6 +91,16 @@ def testTheSceneHasItsOwnStrengthAndDampingAgain():
 	assert integrator.damping == 0.15 and not law.unbreakable
 
 
+def testTooFewStepsToTellAndForcesThatAreNoNumbers():
+	block = slope(1.2)
+	polytope.settle()
+	with pytest.raises(RuntimeError, match='^steps: 50 are too few to tell that bodies are at rest'):
+		polytope.settle(steps=50)
+	O.forces.setPermF(block.id, (float('nan'), 0, 0))
+	with pytest.raises(RuntimeError, match='^bodies: the unbalanced force is not a number'):
+		polytope.settle()
+
+
 def testWithoutElasticJointsKeepTheirStrength():
 	block = slope(1.02)
 	with pytest.raises(RuntimeError, match='not at rest'):
