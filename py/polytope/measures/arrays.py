@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from yade import O, _polytope
 
+from ..scene.columns import arraysOf
+
 __all__ = ['Arrays', 'BodyArrays', 'ContactArrays', 'arrays']
 
 
@@ -97,14 +99,6 @@ def arrays():
 	bodies, shapeNames = _polytope.bodyColumns()
 	contacts, statusNames = _polytope.contactColumns()
 	return Arrays(
-		BodyArrays(**_arraysOf(bodies), shapeNames=shapeNames),
-		ContactArrays(**_arraysOf(contacts), statusNames=statusNames),
+		BodyArrays(**arraysOf(bodies), shapeNames=shapeNames),
+		ContactArrays(**arraysOf(contacts), statusNames=statusNames),
 	)
-
-
-def _arraysOf(columns):
-	made = {}
-	for name, (memory, kind, count, offset, width) in columns.items():
-		flat = np.frombuffer(memory, kind, count, offset)
-		made[name] = flat if width == 1 else flat.reshape(-1, width)
-	return made

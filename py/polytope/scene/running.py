@@ -7,11 +7,11 @@ import time
 
 import numpy as np
 from tqdm import tqdm
-from yade import O, PolytopeTimeStepper
+from yade import O, PolytopeTimeStepper, _polytope
 
 from ..arguments import namedArguments, warn
-from ..measures.arrays import arrays
 from ..precision import isNumber, real
+from .columns import arraysOf
 
 __all__ = ['run']
 
@@ -96,11 +96,11 @@ def _tellUnlimited(until):
 
 
 def _tellNotNumbers():
-	bodies = arrays().bodies
-	lost = ~np.isfinite(np.hstack([bodies.positions, bodies.velocities, bodies.angularVelocities])).all(axis=1)
+	bodies = arraysOf(_polytope.bodyColumns()[0])
+	lost = ~np.isfinite(np.hstack([bodies[name] for name in ('positions', 'velocities', 'angularVelocities')])).all(axis=1)
 	if lost.any():
 		more = f', and of {lost.sum() - 1} bodies more' if lost.sum() > 1 else ''
-		warn(f'run: position or velocity of body {bodies.ids[lost.argmax()]}{more} is not a number; polytope.check(O) tells what it can be')
+		warn(f'run: position or velocity of body {bodies['ids'][lost.argmax()]}{more} is not a number; polytope.check(O) tells what it can be')
 
 
 def _untilTrue(until, limit, every, show):
