@@ -50,9 +50,9 @@ class MotionRecord:
 		if contact:
 			geom = contact.geom
 			self.partner = contact.id2 if contact.id1 == self.body.id else contact.id1
-			touch = [*geom.contactPoint, *geom.normal, geom.penetrationDepth, *_springsOf(contact), *self._shearDamperOf(contact)]
+			touch = [*geom.contactPoint, *geom.normal, *self._shearDamperOf(contact), geom.penetrationDepth, *_springsOf(contact)]
 		else:
-			touch = [*[np.nan] * 7, *[0] * 9]
+			touch = [*[np.nan] * 6, *[0] * 6, np.nan, 0, 0, 0]
 		energy = dict(O.energy.items())  # the law adds its terms at its first contact
 		self._rows.append([*here, *state.vel, *state.angVel, *force, *torque, *touch, *(energy.get(name, 0.0) for name in _booked)])
 
@@ -73,8 +73,7 @@ class MotionRecord:
 			'shearDamper',
 			'shearDamperCouple',
 		)
-		names = ('time', *vectors[:-2], 'depth', *_springs, *vectors[-2:], *_booked)
-		widths = {**dict.fromkeys(names, 1), **dict.fromkeys(vectors, 3), 'orientation': 4}
+		widths = {**dict.fromkeys(('time', *vectors, 'depth', *_springs, *_booked), 1), **dict.fromkeys(vectors, 3), 'orientation': 4}
 		start = 0
 		for name, width in widths.items():
 			setattr(self, name, rows[:, start] if width == 1 else rows[:, start : start + width])

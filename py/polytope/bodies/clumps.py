@@ -11,7 +11,7 @@ from ..scene.vertices import rotationMatrix
 from .halfSpaces import planesAboutCentre
 from .polytopes import fromHalfSpaces, isotropyTolerance
 
-__all__ = ['clump', 'ofUnion', 'rigid', 'union', 'volumeOfUnion']
+__all__ = ['clump', 'newParts', 'ofUnion', 'rigid', 'union', 'volumeOfUnion']
 
 apart = 0.01
 """Gap between two parts over the smaller one's inscribed radius, above which they do not belong together: parts that a program cuts out of a mesh
@@ -33,20 +33,24 @@ def clump(parts):
 	:returns: (number of the clump, numbers of its parts), as O.bodies.appendClumped does
 	:raises ValueError: naming *parts*, also where their union would take more than some ten seconds
 	"""
-	parts = [parts] if isinstance(parts, Body) else list(parts) if isinstance(parts, Iterable) else []
-	if not parts or not all(isinstance(part, Body) and isinstance(part.shape, Polytope) for part in parts):
-		raise ValueError('parts: must be a list of polyhedra or of polygons, as polytope.cuboid, polytope.polygon and other builders make')
-	if len({_plane(part) for part in parts}) > 1:
-		raise ValueError('parts: must all be polyhedra, or all polygons of one thickness and in one plane, with the same z')
-	if len({id(part) for part in parts}) < len(parts):
-		raise ValueError('parts: the same body is there twice; each part is a body of its own')
-	if any(part.id >= 0 for part in parts):
-		raise ValueError(
-			'parts: must not be in the scene yet; O.bodies.clump makes clumps of bodies that are, with the sum of their masses'
-		)
+	parts = newParts(parts, 'parts', '; O.bodies.clump makes clumps of bodies that are, with the sum of their masses')
 	made = ofUnion(parts)
 	_warnOfPartsApart(parts)
 	return made
+
+
+def newParts(parts, name, remedy=''):
+	"""List of bodies that can be parts of one, or ValueError with the name of the argument; `remedy`: for those that are in the scene."""
+	parts = [parts] if isinstance(parts, Body) else list(parts) if isinstance(parts, Iterable) else []
+	if not parts or not all(isinstance(part, Body) and isinstance(part.shape, Polytope) for part in parts):
+		raise ValueError(f'{name}: must be a list of polyhedra or of polygons, as polytope.cuboid, polytope.polygon and other builders make')
+	if len({_plane(part) for part in parts}) > 1:
+		raise ValueError(f'{name}: must all be polyhedra, or all polygons of one thickness and in one plane, with the same z')
+	if len({id(part) for part in parts}) < len(parts):
+		raise ValueError(f'{name}: the same body is there twice; each part is a body of its own')
+	if any(part.id >= 0 for part in parts):
+		raise ValueError(f'{name}: must not be in the scene yet{remedy}')
+	return parts
 
 
 def ofUnion(parts):

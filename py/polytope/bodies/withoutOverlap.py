@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bodies that overlap, cut into bodies that touch: for members of a clump and pieces of a support, each of which has contacts of its own."""
 
-from collections.abc import Iterable
-
 import numpy as np
-from yade import Body, Polytope, Vector3, _polytope
+from yade import Vector3, _polytope
 
 from ..scene.vertices import worldVertices
+from .clumps import newParts
 from .halfSpaces import worldPlanes
 from .pieces import pieceOf
 
@@ -26,17 +25,11 @@ def withoutOverlap(bodies):
 	one convex body or several, each with the material, density, colour, mask and blocked degrees of freedom of the body that it was cut from, and moving
 	with it. A body that lies wholly in one before it is left out.
 
-	:param bodies: list of polyhedra, or of polygons in one plane, that are not in the scene yet
+	:param bodies: list of polyhedra, or of polygons in one plane and of one thickness, that are not in the scene yet
 	:returns: list of bodies
 	:raises ValueError: naming *bodies*
 	"""
-	bodies = list(bodies) if isinstance(bodies, Iterable) else []
-	if not bodies or not all(isinstance(one, Body) and isinstance(one.shape, Polytope) for one in bodies):
-		raise ValueError('bodies: must be a list of polyhedra or of polygons, as polytope.cuboid, polytope.polygon and other builders make')
-	if len({one.shape.dimension for one in bodies}) > 1:
-		raise ValueError('bodies: must be all polyhedra, or all polygons')
-	if any(one.id >= 0 for one in bodies):
-		raise ValueError('bodies: must not be in the scene yet')
+	bodies = newParts(bodies, 'bodies')
 	made = []
 	for number, one in enumerate(bodies):
 		left = [one]

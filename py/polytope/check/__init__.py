@@ -12,7 +12,7 @@ from .findings import Check, Finding
 from .lostStrengths import hanging, lostStrengths
 from .materials import changedMaterials, defaultMaterial
 from .pairs import pairFindings
-from .places import notNumbers, placeFindings
+from .places import lostBodies, placeFindings
 from .scene import SceneToCheck
 from .softJoints import softJoints
 from .steps import stepFindings
@@ -69,7 +69,7 @@ def check(O, costs=False):
 def checkOf(O, engines):
 	"""Checks the scene as it would be with these engines; None: its own."""
 	scene = SceneToCheck(O, engines)
-	lost = list(notNumbers(scene))
+	lost = list(lostBodies(scene))
 	found = [
 		*lost,
 		*engineFindings(scene),

@@ -88,12 +88,10 @@ def overlaps(scene):
 
 def sharedFaces(scene):
 	"""Members of a clump that overlap with faces in one plane: what presses on the part of it that is of both presses on each."""
-	rows = _rows(scene)
-	found = [
-		(rows.bodies[i].id, rows.bodies[j].id)
-		for i, j in _candidates(rows)
-		if sameClump(rows.bodies[i], rows.bodies[j]) and not rows.shifts[[i, j]].any() and _shareFace(rows.bodies[i], rows.bodies[j])
-	]
+	members = [body for body in scene.bodies if isinstance(body.shape, Polytope) and body.isClumpMember]
+	places = np.array([body.state.pos for body in members], float).reshape(-1, 3)
+	pairs = ((members[i], members[j]) for i, j in _candidates(Rows(members, places, np.zeros_like(places))))
+	found = [(one.id, other.id) for one, other in pairs if sameClump(one, other) and _shareFace(one, other)]
 	if found:
 		more = f', and {len(found) - 1} pairs more' if len(found) > 1 else ''
 		one, other = sorted(found[0])

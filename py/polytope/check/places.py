@@ -9,16 +9,16 @@ from yade import Box, Facet, Polytope, RockJointMat, Wall
 
 from ..bodies.halfSpaces import halfSpacesOf
 from ..bonding.bonds import intactBonds
-from ..measures.arrays import arrays
 from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
+from ..scene.notNumbers import notNumbers
 from ..scene.present import isPerArea, jointMakers
 from ..scene.radii import inscribedRadius
 from ..scene.vertices import rotationMatrix, worldVertices
 from .neighbours import looks, touching, touchingPairs
 from .overlaps import coincidence, overlaps, sharedFaces
 
-__all__ = ['notNumbers', 'overlapShare', 'placeFindings']
+__all__ = ['lostBodies', 'overlapShare', 'placeFindings']
 
 softest = 0.1
 """Overlap over the inscribed radius, under a body's own weight or in its impact on one face, above which the contact gives way: overlaps of
@@ -33,15 +33,12 @@ def placeFindings(scene):
 		yield from one(scene)
 
 
-def notNumbers(scene):
-	"""Positions, orientations and velocities that are not finite, also of clumps, whose members follow them."""
-	bodies = arrays().bodies
-	fields = {'pos': bodies.positions, 'ori': bodies.orientations, 'vel': bodies.velocities, 'angVel': bodies.angularVelocities}
-	lost = np.array([~np.isfinite(field).all(axis=1) for field in fields.values()])
-	rows = np.flatnonzero(lost.any(axis=0))
-	if len(rows):
-		key, wrong = bodies.ids[rows[0]], [name for name, one in zip(fields, lost[:, rows[0]], strict=True) if one]
-		more = f', and {len(rows) - 1} bodies more' if len(rows) > 1 else ''
+def lostBodies(scene):
+	"""Positions, orientations and velocities that are not finite."""
+	lost = notNumbers()
+	if lost:
+		key, wrong = next(iter(lost.items()))
+		more = f', and {len(lost) - 1} bodies more' if len(lost) > 1 else ''
 		seen = (
 			f'body {key}: {" and ".join(f"state.{name}" for name in wrong)} is not a finite number{more}: no contact of it can be computed'
 		)

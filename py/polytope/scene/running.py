@@ -5,13 +5,12 @@ import math
 import numbers
 import time
 
-import numpy as np
 from tqdm import tqdm
-from yade import O, PolytopeTimeStepper, _polytope
+from yade import O, PolytopeTimeStepper
 
 from ..arguments import namedArguments, warn
 from ..precision import isNumber, real
-from .columns import arraysOf
+from .notNumbers import notNumbers
 
 __all__ = ['run']
 
@@ -96,11 +95,10 @@ def _tellUnlimited(until):
 
 
 def _tellNotNumbers():
-	bodies = arraysOf(_polytope.bodyColumns()[0])
-	lost = ~np.isfinite(np.hstack([bodies[name] for name in ('positions', 'velocities', 'angularVelocities')])).all(axis=1)
-	if lost.any():
-		more = f', and of {lost.sum() - 1} bodies more' if lost.sum() > 1 else ''
-		warn(f'run: position or velocity of body {bodies['ids'][lost.argmax()]}{more} is not a number; polytope.check(O) tells what it can be')
+	lost = notNumbers()
+	if lost:
+		more = f', and of {len(lost) - 1} bodies more' if len(lost) > 1 else ''
+		warn(f'run: position or velocity of body {next(iter(lost))}{more} is not a number; polytope.check(O) tells which')
 
 
 def _untilTrue(until, limit, every, show):

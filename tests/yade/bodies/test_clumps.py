@@ -456,7 +456,9 @@ def testABarOfOverlappingMembersCutApartLiesAsOneBody(perArea):
 	[
 		(lambda: [], 'must be a list'),
 		(lambda: 3, 'must be a list'),
-		(lambda: [rectangle((0, 0), (1, 1)), box((0, 0, 0), (1, 1, 1))], 'be all polyhedra, or all polygons'),
+		(lambda: [rectangle((0, 0), (1, 1)), rectangle((0, 0), (1, 1), thickness=2)], 'in one plane'),
+		(lambda: [rectangle((0, 0), (1, 1))] * 2, 'twice'),
+		(lambda: [rectangle((0, 0), (1, 1)), box((0, 0, 0), (1, 1, 1))], 'must all be polyhedra, or all polygons of one thickness'),
 		(lambda: [O.bodies[O.bodies.append(box((0, 0, 0), (1, 1, 1)))]], 'not be in the scene'),
 	],
 )
