@@ -3,6 +3,8 @@
 
 #include "surface/FeasibleBuffers.hpp"
 
+#include <utility>
+
 /// Where the vertices of the feasible set of a pair (FeasibleSet.hpp) are, by the planes that are tight in them.
 namespace polytope {
 
@@ -38,25 +40,21 @@ public:
 		return product[0] + product[1] + product[2];
 	}
 
-	/// Where the planes of a vertex cross: three of them less the `last`, and the cross products of two of those in turn.
+	/// Where the planes of a vertex cross: three differences of them, and the cross products of two of those in turn.
 	struct Crossing {
-		Four row[3], across[3], last;
-		R    volume, lengths; ///< of the three; the product of the squares of their lengths, or what that cannot exceed
+		Four row[3], across[3], last; ///< `last`: the plane in the last slot
+		R    volume, lengths;         ///< of the three; the product of the squares of their lengths, or what that cannot exceed
 
 		/// Whether the planes are so nearly parallel that it matters which is subtracted from which.
 		bool isSharp() const { return volume * volume < R(tolerance::sharpVertex) * R(tolerance::sharpVertex) * lengths; }
 	};
-	/// False if they do not meet in a point. `last`: which of the four is subtracted from the others.
-	POLYTOPE_INLINE bool cross(int v, Crossing& c, int last = 3) const
+	/// Each of the others less the last one; false if they do not meet in a point.
+	POLYTOPE_INLINE bool cross(int v, Crossing& c) const
 	{
-		const std::uint8_t* const tight = buffers_.tight[v];
-		c.last                          = load<R, 4>(buffers_.plane + 4 * tight[last]);
+		c.last = tightPlane(v, 3);
 		for (int k = 0; k < 3; ++k)
-			c.row[k] = load<R, 4>(buffers_.plane + 4 * tight[k == last ? 3 : k]) - c.last;
-		for (int k = 0; k < 3; ++k)
-			c.across[k] = crossProduct<R>(c.row[(k + 1) % 3], c.row[(k + 2) % 3]);
-		c.volume  = dotOf3(c.row[0], c.across[0]);
-		c.lengths = 64; // differences of unit vectors
+			c.row[k] = tightPlane(v, k) - c.last;
+		multiply(c);
 		if (c.isSharp()) c.lengths = dotOf3(c.row[0], c.row[0]) * dotOf3(c.row[1], c.row[1]) * dotOf3(c.row[2], c.row[2]);
 		const R least = R(tolerance::vertexVolume);
 		return c.volume * c.volume > least * least * c.lengths;
@@ -66,8 +64,7 @@ public:
 	POLYTOPE_INLINE void place(int v, const Crossing& c)
 	{
 		if (c.isSharp()) {
-			Crossing sharp;
-			cross(v, sharp, nearlyParallel(v));
+			const Crossing sharp = crossNearest(v);
 			placeAt(v, sharp);
 			refine(v, sharp);
 		} else placeAt(v, c);
@@ -160,21 +157,41 @@ private:
 		return true;
 	}
 
-	/// One of the two planes of a vertex that are most nearly parallel: their difference is exact.
-	POLYTOPE_APART int nearlyParallel(int v) const
+	Four tightPlane(int v, int slot) const { return load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][slot]); }
+
+	static POLYTOPE_INLINE void multiply(Crossing& c)
 	{
-		int found = 3;
-		R   least = R(padOffset);
-		for (int k = 0; k < 4; ++k)
-			for (int j = 0; j < k; ++j) {
-				const Four apart = load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][k])
-				        - load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][j]);
-				const R square = dotOf3(apart, apart);
-				if (!(square < least)) continue;
-				least = square;
-				found = k;
-			}
-		return found;
+		for (int k = 0; k < 3; ++k)
+			c.across[k] = crossProduct<R>(c.row[(k + 1) % 3], c.row[(k + 2) % 3]);
+		c.volume  = dotOf3(c.row[0], c.across[0]);
+		c.lengths = 64; // differences of unit vectors
+	}
+
+	/// As cross(), with each plane less the one of those before it that is most nearly parallel to it, in the order of a minimum spanning tree. The
+	/// difference of planes that nearly coincide is exact; where a vertex has two such pairs, no plane subtracted from all others gives both.
+	POLYTOPE_APART Crossing crossNearest(int v) const
+	{
+		Crossing c;
+		c.last          = tightPlane(v, 3);
+		Four reached[4] = { c.last };
+		int  left[3]    = { 0, 1, 2 };
+		for (int k = 0; k < 3; ++k) {
+			R   least = R(padOffset);
+			int place = k;
+			for (int j = k; j < 3; ++j)
+				for (int i = 0; i <= k; ++i) {
+					const Four apart  = tightPlane(v, left[j]) - reached[i];
+					const R    square = dotOf3(apart, apart);
+					if (!(square < least)) continue;
+					least    = square;
+					place    = j;
+					c.row[k] = apart;
+				}
+			reached[k + 1] = tightPlane(v, left[place]);
+			std::swap(left[k], left[place]);
+		}
+		multiply(c);
+		return c;
 	}
 
 	/// The cross products of planes that are nearly parallel give a vertex that is off its planes by what they round, times one over their

@@ -257,6 +257,21 @@ TEST(ContactSurface, IsExactForBodiesThatCoincide)
 	expectExact<3>([&](int t, auto& r) { return coincidingPair(t, r, shapes); }, 60, 60);
 }
 
+/// Boxes that coincide but for a small turn: in a vertex of their feasible set two pairs of planes may meet that nearly coincide.
+TEST(ContactSurface, IsExactForTwoPairsOfNearlyParallelPlanesInAVertex)
+{
+	const auto make = [](int, auto& random) {
+		Pair       pair;
+		const Real little = decades(random, -8, -5);
+		pair.shape[0]     = pair.shape[1]
+		        = ConvexShape::shared(cuboid(1, uniform(random, Real(0.3), 1), uniform(random, Real(0.3), 1)), 0);
+		pair.centre2     = little / 4 * randomDirection(random);
+		pair.rotation[1] = Eigen::AngleAxis<Real>(little, randomDirection(random)).toRotationMatrix();
+		return turned(pair, randomRotation(random));
+	};
+	expectExact<3>(make, 300, 300, 50);
+}
+
 TEST(ContactSurface, IsExactInTwoDimensions)
 {
 	std::mt19937_64 random(4);
