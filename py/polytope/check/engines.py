@@ -114,8 +114,8 @@ def order(scene):
 			name = type(scene.colliders[0]).__name__
 			yield (
 				'order of engines',
-				f'{name} is behind the InteractionLoop: pairs are found a step late',
-				f'put {name} before the InteractionLoop',
+				f'bodies move between {name} and the InteractionLoop: pairs are found a step late',
+				f'put {name} between the NewtonIntegrator of one step and the InteractionLoop of the next, best right before the loop',
 			)
 	resetters = scene.those(ForceResetter)
 	if not resetters or not scene.loops or not scene.integrators:

@@ -92,6 +92,10 @@ def spanning(scene):
 	if not abs(np.linalg.det(cell)) > 0:
 		yield 'periodic cell', 'O.cell has no volume', 'O.cell.setBox(x, y, z) with the edges of the cell'
 		return
+	walls = [body.id for body in scene.bodies if isinstance(body.shape, Wall)]
+	if walls:
+		seen = f'{len(walls)} walls (body {walls[0]} first) are without end, beyond every periodic cell: YADE ends the run'
+		yield 'periodic cell', seen, 'allowBiggerThanPeriod=True in the collider, or plates of half a cell at the most'
 	margin = 2 * max(0.0, *(float(collider.verletDist) for collider in colliders)) / np.abs(np.linalg.norm(cell, axis=0))
 	narrowest = 1 / np.linalg.norm(np.linalg.inv(cell), axis=1).max()  # distance of two opposite sides
 	large = {}

@@ -20,7 +20,8 @@ def mechanicalEnergy():
 	any time step (with the squares of one of them it would oscillate by f·v Δt/2). Rotation is that of NewtonIntegrator's default for
 	unequal moments of inertia (rotAlgorithm delValle2023). Springs: of rock joints as their law books them, with dilation, tension and a closure of
 	their own; of others kn × *PolytopeGeom.energyPerStiffness* where there is one, else kn depth²/2, and shear force²/(2 ks). Heights are
-	above z = 0, along gravity: that of O.engines' NewtonIntegrator, of several the sum.
+	above z = 0, along gravity: that of O.engines' NewtonIntegrator, of several the sum. In a periodic cell velocities are those beside the cell's own
+	motion (velGrad · position), whichever of its images a body is in; spins are whole.
 
 	Contacts of other laws count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not
 	the energy.
@@ -47,13 +48,18 @@ def mechanicalEnergy():
 
 def _motion(state):
 	# copies: what YADE returns are references, which change with the body
-	return Vector3(state.pos), state.ori.conjugate(), Vector3(state.vel), Vector3(state.angVel)
+	return Vector3(state.pos), state.ori.conjugate(), _besideTheCell(state), Vector3(state.angVel)
+
+
+def _besideTheCell(state):
+	"""Velocity without that of the cell at this place. A gradient that was set since the last step is not in it yet."""
+	return state.vel - O.cell.prevVelGrad * state.pos if O.periodic else Vector3(state.vel)
 
 
 def _energy(state, position, toBody, velocity, spin, gravity):
 	before, after = toBody * spin, toBody * state.angVel
 	rotation = sum(moment * one * other for moment, one, other in zip(state.inertia, before, after, strict=True))
-	return (state.mass * velocity.dot(state.vel) + rotation) / 2 - state.mass * gravity.dot(position)
+	return (state.mass * velocity.dot(_besideTheCell(state)) + rotation) / 2 - state.mass * gravity.dot(position)
 
 
 def _moves(contact):

@@ -1157,6 +1157,19 @@ def testBodyLargerThanHalfOfAPeriodicCell():
 			O.step()
 
 
+def testWallInAPeriodicCell():
+	O.materials.append(rock())
+	O.periodic = True
+	O.cell.setBox(2, 3, 3)
+	O.bodies.append([polytope.cuboid((0.5, 1, 0.5), (0.4, 0.4, 0.4)), utils.wall(0, 2)])
+	with pytest.warns(UserWarning, match='^periodic cell: 1 walls'):
+		O.engines = polytope.engines(gravity=(0, 0, 0))
+	assert 'body 1 first' in onlyFinding('periodic cell').seen
+	O.engines[1].allowBiggerThanPeriod = True
+	assert not polytope.check(O)
+	O.step()
+
+
 def testAPolygonThickerThanHalfOfAPeriodicCell():
 	O.materials.append(rock())
 	O.periodic = True

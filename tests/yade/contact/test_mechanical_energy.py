@@ -14,6 +14,7 @@ from yade import (
 	Ip2_RockJointMat_RockJointMat_RockJointPhys,
 	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
 	MatchMaker,
+	Matrix3,
 	O,
 	Quaternion,
 	RockJointMat,
@@ -38,6 +39,27 @@ def testFreeFlightOfATumblingCube():
 	cube.state.vel, cube.state.angVel = (3, 1, 2), (1, 5, 3)
 	O.dt = 0.01
 	assert energies(50) < 1e-12
+
+
+def testInAShearedCellItDoesNotMatterWhichImageABodyIsIn():
+	def energy(cells):
+		O.reset()
+		joint()
+		loop(gravity=(0, 0, 0))
+		O.periodic = True
+		O.cell.setBox(2, 3, 4)
+		O.cell.velGrad = Matrix3(0, 0, 20, 0, 0, 0, 0, 0, 0)
+		O.dt = 1e-4
+		cube = polytope.cuboid((0.5, 1, 1), (0.3, 0.2, 0.25))
+		O.bodies.append(cube)
+		O.step()
+		cube.state.pos += Vector3(0, 0, 4 * cells)
+		cube.state.vel = O.cell.velGrad * cube.state.pos + Vector3(0.1, 0.2, 0.3)
+		return polytope.mechanicalEnergy(), cube.state.mass * 0.14 / 2
+
+	for cells in (0, 1, 100):
+		own, beside = energy(cells)
+		assert own == pytest.approx(beside, rel=1e-10)
 
 
 @pytest.mark.parametrize('model', ['boon2012', 'spring'])

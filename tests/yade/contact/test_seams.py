@@ -557,3 +557,39 @@ def testEnergyOfADeepImpactOnASeam(model):
 			left, deepest = energyLeft(model, 2, tilt, speed, x)
 			assert left == pytest.approx(1, abs=1e-4)
 			assert deepest == pytest.approx(depth, rel=1e-3)
+
+
+# ------------------------------------------------------------------------------------------------ both bodies made of pieces
+
+
+def forceOfBars(rule, turns, place, parts, half=0.03):
+	"""Force on the second of two bars [N], each one cuboid or a clump of two cubes, and the number of contacts."""
+	O.reset()
+	physics = joints(rule, friction=0)
+	members = []
+	for turn, centre, several in zip(turns, (Vector3.Zero, place), parts, strict=True):
+		along = (-half, half) if several else (0,)
+		size = (half if several else 2 * half, half, half)
+		bar = [polytope.cuboid(centre + turn * Vector3(x, 0, 0), size, turn) for x in along]
+		members.append(polytope.clump(bar)[1] if several else [O.bodies.append(bar[0])])
+	O.engines = polytope.engines(gravity=(0, 0, 0), physics=physics, timeStepper=False)
+	O.dt = 1e-12
+	O.step()
+	contacts = [contact for contact in O.interactions if contact.isReal]
+	assert all({contact.id1 in members[0], contact.id2 in members[0]} == {True, False} for contact in contacts)
+	force = sum((contact.phys.normalForce * (1 if contact.id1 in members[0] else -1) for contact in contacts), Vector3.Zero)
+	return force, len(contacts)
+
+
+@pytest.mark.parametrize(('rule', 'twice'), [('perArea', 0.99), ('perContact', 1.98)])
+def testAClumpOnAClumpIsNotYetTheSolid(rule, twice):
+	"""A clump on a single body is the solid. Of two clumps, the internal faces of one are left out alone: a limit (docs/contact-force.md)."""
+	half = 0.03
+	turns = Quaternion.Identity, Quaternion((0, 0, 1), 1.2) * Quaternion((1, 0, 0), math.pi / 4)
+	place = Vector3(0, 0, half + half * math.sqrt(2) - 0.002)  # an edge across a face, both joints in its middle
+	one, _ = forceOfBars(rule, turns, place, (False, False))
+	for parts in (True, False), (False, True):
+		force, contacts = forceOfBars(rule, turns, place, parts)
+		assert contacts == 2 and (force - one).norm() < 1e-12 * one.norm()
+	force, contacts = forceOfBars(rule, turns, place, (True, True))
+	assert contacts == 4 and force.norm() / one.norm() == pytest.approx(twice, abs=0.01)
