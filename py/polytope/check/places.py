@@ -112,7 +112,7 @@ def spanning(scene):
 		yield (
 			'periodic cell',
 			seen,
-			'a larger cell, smaller bodies, or walls; for plates through the whole cell allowBiggerThanPeriod=True in the collider',
+			'a larger cell, smaller bodies, or walls in place of the periodic cell; for plates through all of it allowBiggerThanPeriod=True in the collider',
 		)
 
 

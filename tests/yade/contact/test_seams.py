@@ -581,8 +581,8 @@ def forceOfBars(rule, turns, place, parts, half=0.03):
 	return force, len(contacts)
 
 
-@pytest.mark.parametrize(('rule', 'twice'), [('perArea', 0.99), ('perContact', 1.98)])
-def testAClumpOnAClumpIsNotYetTheSolid(rule, twice):
+@pytest.mark.parametrize(('rule', 'ratio'), [('perArea', 0.99), ('perContact', 1.98)])
+def testAClumpOnAClumpIsNotYetTheSolid(rule, ratio):
 	"""A clump on a single body is the solid. Of two clumps, the internal faces of one are left out alone: a limit (docs/contact-force.md)."""
 	half = 0.03
 	turns = Quaternion.Identity, Quaternion((0, 0, 1), 1.2) * Quaternion((1, 0, 0), math.pi / 4)
@@ -592,4 +592,4 @@ def testAClumpOnAClumpIsNotYetTheSolid(rule, twice):
 		force, contacts = forceOfBars(rule, turns, place, parts)
 		assert contacts == 2 and (force - one).norm() < 1e-12 * one.norm()
 	force, contacts = forceOfBars(rule, turns, place, (True, True))
-	assert contacts == 4 and force.norm() / one.norm() == pytest.approx(twice, abs=0.01)
+	assert contacts == 4 and force.norm() / one.norm() == pytest.approx(ratio, abs=0.01)
