@@ -59,8 +59,8 @@ def clumpedParts():
 
 
 rounding = 1e-13
-"""A contact of bodies of two ranks is computed on both, on one of them perhaps from its beginning and on the other from the last step's planes: their shear
-forces differ by rounding, and which of them the merged scene has depends on which rank was first."""
+"""× the largest value. A contact of bodies of two ranks is computed on both, on one of them perhaps from its beginning and on the other from the last step's
+planes: points, areas and forces differ by rounding, and which of them the merged scene has depends on which rank was first."""
 
 
 def divided(start='start'):
@@ -76,16 +76,18 @@ def divided(start='start'):
 		return None
 	pairs = [(ranks[int(one)], ranks[int(other)]) for one, other in again.contacts.ids]
 	order = np.lexsort(again.contacts.ids.T[::-1])
+
+	def alike(name):
+		here, there = getattr(fields.contacts, name), getattr(again.contacts, name)[order]
+		return bool(abs(here - there).max() < rounding * abs(here).max())
+
 	same = {
 		**{
 			name: np.array_equal(getattr(fields.bodies, name), getattr(again.bodies, name))
 			for name in ('ids', 'clumpIds', 'positions', 'velocities', 'masses')
 		},
-		**{
-			name: np.array_equal(getattr(fields.contacts, name), getattr(again.contacts, name)[order])
-			for name in ('ids', 'points', 'areas')
-		},
-		'forces': bool(abs(fields.contacts.forces - again.contacts.forces[order]).max() < rounding * abs(fields.contacts.forces).max()),
+		'contacts': np.array_equal(fields.contacts.ids, again.contacts.ids[order]),
+		**{name: alike(name) for name in ('points', 'areas', 'forces')},
 	}
 	# force on all bodies together, fixed ones included: the contacts' own cancel
 	parts = fields.bodies.clumpIds != fields.bodies.ids
