@@ -100,6 +100,8 @@ struct ContactSettings : ContactOptions {
 	const InternalPlanes* internal = nullptr;
 	/// Models with a surface: where the planes that bound a touching pair's overlap are written to, or null.
 	BoundingPlanes* bounding = nullptr;
+	/// Whether these are those of the overlap without the planes left out.
+	bool boundingOfSolids = false;
 	/// Models with a surface: the law of a joint that stiffens as it closes, or null.
 	const ClosureLaw* closure = nullptr;
 	/// 3-D, models with a surface: what gives the contact in the next steps (LinearContact.hpp), or null. Written where the surface has the vertices of

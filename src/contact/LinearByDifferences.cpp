@@ -24,11 +24,11 @@ namespace {
 	}
 
 	/// How far the surface may reach from the contact point, about: of the body that lies on the pieces, whose tilt decides what each of them carries; where there
-	/// are none, of the smaller one.
+	/// are none, or both bodies are pieces, of the smaller one.
 	Real radiusOf(const PlacedPair& pair, const InternalPlanes* internal)
 	{
 		const Real first = pair.shape[0]->boundingRadius(), second = pair.shape[1]->boundingRadius();
-		if (internal && !internal->none()) return internal->count[0] > 0 ? second : first;
+		if (internal && (internal->count[0] > 0) != (internal->count[1] > 0)) return internal->count[0] > 0 ? second : first;
 		return std::min(first, second);
 	}
 

@@ -5,12 +5,15 @@
 #include "contact/ContactPointRules.hpp"
 #include "contact/PairSurface.hpp"
 #include "contact/PhaseOne.hpp"
-#include "contact/StartBasis.hpp"
+#include "contact/WarmStart.hpp"
+#include "program/BasisSolver.hpp"
+
+#include <algorithm>
 
 /// The contact surface of a body on one of several flush pieces: that of the solid which they make, without the faces between them, and the
-/// part of it on this piece. The solid is taken to be the piece with each such face moved out to where the solid ends beyond it. Where the
-/// pieces are no such solid, as about a corner that points inwards, it differs from them beside the piece alone: the pressure on the piece,
-/// and so its part of the force, are right all the same.
+/// part of it on this piece. Where both bodies are pieces, it is that of both solids, and the part which is on both pieces. The solid is taken to
+/// be the piece with each such face moved out to where the solid ends beyond it. Where the pieces are no such solid, as about a corner that points
+/// inwards, it differs from them beside the piece alone: the pressure on the piece, and so its part of the force, are right all the same.
 namespace polytope {
 
 /// Planes of internal faces, moved to where the solid ends beyond them until they are restored.
@@ -49,44 +52,54 @@ private:
 /// The planes that bound the overlap, with their slacks at its analytic centre. What is in the frame turns with it.
 template <class R, int D, int W> POLYTOPE_APART void boundingPlanesOf(PairQuery<R, D> q)
 {
-	BoundingPlanes& bounding = *q.settings.bounding;
-	R               centre[D];
+	BoundingPlanes&      bounding = *q.settings.bounding;
+	ExtendedPieces<R, D> extended(q.planes);
+	if (q.settings.internal && q.settings.boundingOfSolids) extended.extend(*q.settings.internal);
+	R centre[D];
 	for (int k = 0; k < D; ++k)
 		centre[k] = q.x[k];
 	newtonCentre<R, D, W>(q, centre, R(q.settings.newtonTolerance));
 	boundingPlanes<R, D, W>(q.planes, centre, bounding);
 	bounding.point = worldPoint<R, D>(q.in, q.frame, toBody<R, D>(q.frame, q.frame.home, centre));
+	extended.restore();
 }
 
-/// Length that bounds the overlap with the extended piece: it lies within the other body, and within the piece enlarged about its centre
-/// until it reaches as far as the solid, for planes that are moved out by no more than that factor bound no more.
+/// Length that bounds the overlap of the extended pieces: it lies within each of them enlarged about its centre until it reaches as far as the
+/// solid, for planes that are moved out by no more than that factor bound no more.
 template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PlacedPair& in, const InternalPlanes& internal)
 {
 	R size = R(padOffset);
 	for (int piece = 0; piece < 2; ++piece) {
-		if (internal.count[piece] == 0) continue;
 		R larger = 1;
 		for (int k = 0; k < internal.count[piece]; ++k) {
 			const R own = in.shape[piece]->offsetArray()[internal.plane[piece][k]];
 			larger      = maxOf<R>(larger, own > 0 ? R(1 + R(internal.beyond[piece][k]) / own) : R(padOffset));
 		}
-		size = minOf<R>(size, minOf<R>(in.shape[1 - piece]->boundingRadius(), larger * in.shape[piece]->boundingRadius()));
+		size = minOf<R>(size, larger * in.shape[piece]->boundingRadius());
 	}
 	return size;
 }
 
-/// The optimum of the program of the extended piece, from the ball of the body that has no internal face. `size`: that of a body in which
-/// the overlap lies. False where it has no optimum to find a surface from.
+/// Whether the body is bounded, and its solid too.
+inline bool isSolidBounded(const PlacedPair& in, const InternalPlanes& internal, int body)
+{
+	const Real* const beyond = internal.beyond[body];
+	return in.shape[body]->inscribedRadius() < Real(padOffset)
+	        && std::all_of(beyond, beyond + internal.count[body], [](const Real& way) { return way < Real(padOffset); });
+}
+
+/// The optimum of the program of the extended pieces, from the planes that touch the ball of one of them: of one whose solid is bounded. `size`: that
+/// of a body in which the overlap lies. False where it has no optimum to find a surface from.
 template <class R, int D, int W> POLYTOPE_APART bool programOnPieces(PairQuery<R, D> q, R size, LpBasis<R, D>& optimum)
 {
-	const int ball = q.settings.internal->count[0] > 0 ? 1 : 0;
-	if (!(q.in.shape[ball]->inscribedRadius() < R(padOffset))) return false;
+	const InternalPlanes& internal = *q.settings.internal;
+	const int             ball     = internal.count[0] > 0 && isSolidBounded(q.in, internal, 1) ? 1 : 0;
+	if (!isSolidBounded(q.in, internal, ball)) return false;
 	PairMemory start;
-	R          dual[D];
 	for (int k = 0; k <= D; ++k)
 		start.basis[k] = planeCode(ball, q.in.shape[ball]->inscribedBasis()[k]);
-	if (!startFrom<R, D>(q.in, q.frame, start.basis, optimum, dual)) return false;
 	recallBasis<R, D>(q.planes, start, optimum);
+	if (!solveBasis<R, D>(q.planes, optimum)) return false;
 	ProgramLimits<R> all = q.limits;
 	all.dismissAbove     = R(padOffset);
 	int pivots           = 0;
@@ -94,7 +107,7 @@ template <class R, int D, int W> POLYTOPE_APART bool programOnPieces(PairQuery<R
 	        && optimum.infeasibility < -q.limits.tolerance;
 }
 
-/// The extended piece in place of the piece. What lies on the piece is kept within `clips`; false if they have no room.
+/// The extended pieces in place of the pieces. What lies on the pieces is kept within `clips`; false if they have no room.
 template <class R, int D>
 POLYTOPE_APART bool beginOnPieces(
         const InternalPlanes& internal, const PairPlanes<R, D>& planes, ExtendedPieces<R, D>& extended, SurfaceClips<R, D>& clips)
@@ -108,7 +121,7 @@ POLYTOPE_APART bool beginOnPieces(
 	return true;
 }
 
-/// Whether the surface of the extended piece was found, with a force that has an area across it.
+/// Whether the surface of the extended pieces was found, with a force that has an area across it.
 template <class R, int D> POLYTOPE_APART bool isFoundOnPieces(const ProgramLimits<R>& limits, const PairSurface<R, D>& surface)
 {
 	return surface.status == SurfaceStatus::Found && surface.deepest > limits.tolerance

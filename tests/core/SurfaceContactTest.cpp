@@ -348,6 +348,79 @@ TEST(SurfaceContact, PiecesCoveredOnSeveralSidesHaveTheContactOfTheSolid)
 	expectManyPiecesToHaveTheContactOfTheSolid<2>();
 }
 
+/// Two bodies that are both cut in two, one of which lies on the other with a face or an edge over the joints of both: the four pairs of pieces have
+/// together the contact of the two solids.
+template <int D> void expectPiecesOnPiecesToHaveTheContactOfTheSolids()
+{
+	std::mt19937_64                      random(188 + D);
+	std::uniform_real_distribution<Real> some(-1, 1);
+	int                                  parted = 0;
+	for (int trial = 0; trial < 200; ++trial) {
+		SCOPED_TRACE(trial);
+		Pair pair;
+		pair.shape[0] = pair.shape[1] = CutSlab<D>(0).whole;
+		const Real tilt               = decades(random, -6, -3);
+		const auto turned             = [](const Real& angle, const Vector3& axis) { return Eigen::AngleAxis<Real>(angle, axis); };
+		const Real onEdge             = D == 3 && trial % 2 ? Real(0.8) : tilt;
+		const auto lying              = turned(tilt, Vector3::UnitZ());
+		pair.rotation[1]              = lying.toRotationMatrix();
+		if (D == 3)
+			pair.rotation[1]
+			        *= (turned(3 * some(random), Vector3::UnitY()) * turned(onEdge, Vector3::UnitX())).toRotationMatrix();
+		Real lowest = 0;
+		for (const Vector3& vertex : pair.shape[1]->polyhedron().vertices)
+			lowest = std::min(lowest, Vector3(pair.rotation[1] * vertex)[1]);
+		const Real overlap           = decades(random, -3, -2);
+		pair.centre2                 = Vector3(some(random), 1 - lowest - overlap, D == 2 ? Real(0) : some(random));
+		const ContactResult touching = query(pair, with(ContactModel::Foundation));
+		ASSERT_TRUE(touching.inContact);
+		const Vector3    there = pair.rotation[1].transpose() * (touching.point - pair.centre2);
+		const CutSlab<D> slab(touching.point[0] + overlap * some(random) / 2), bar(there[0] + overlap * some(random) / 2);
+		for (const ContactModel model : models) {
+			const ContactResult all = query(pair, with(model));
+			const Load          whole(all, model);
+			Real                share = 0, energy = 0, area = 0;
+			Vector3             force = Vector3::Zero(), moment = Vector3::Zero();
+			for (int k = 0; k < 4; ++k) {
+				const int one = k / 2, other = k % 2;
+				Pair      piece = pair;
+				piece.shape[0]  = slab.half[one];
+				piece.shape[1]  = bar.half[other];
+				piece.centre2 += pair.rotation[1] * bar.centre[other] - slab.centre[one];
+				InternalPlanes both = slab.covered[one];
+				for (int i = 0; i < bar.covered[other].count[0]; ++i)
+					both.add(1, bar.covered[other].plane[0][i], bar.covered[other].beyond[0][i]);
+				ContactSettings settings   = with(model);
+				settings.internal          = &both;
+				const ContactResult result = query(piece, settings);
+				if (!result.inContact) continue;
+				EXPECT_EQ(result.status, all.status);
+				const Load on(result, model);
+				const Real part = model == ContactModel::Spring ? result.share : Real(1);
+				share += result.share;
+				area += result.area;
+				force += part * on.force;
+				moment += part * (on.moment + slab.centre[one].cross(on.force));
+				energy += part * on.energy;
+				parted += result.share < Real(0.9) && result.share > Real(0.01);
+			}
+			const Real rounding = 1e-9;
+			EXPECT_NEAR(share, 1, rounding);
+			EXPECT_NEAR(area / all.area, 1, rounding);
+			EXPECT_LE((force - whole.force).norm(), rounding * whole.force.norm());
+			EXPECT_LE((moment - whole.moment).norm(), 4 * rounding * whole.force.norm());
+			EXPECT_NEAR(energy / whole.energy, 1, rounding);
+		}
+	}
+	EXPECT_GT(parted, 400);
+}
+
+TEST(SurfaceContact, PiecesOnPiecesHaveTheContactOfTheSolids)
+{
+	expectPiecesOnPiecesToHaveTheContactOfTheSolids<3>();
+	expectPiecesOnPiecesToHaveTheContactOfTheSolids<2>();
+}
+
 TEST(SurfaceContact, ExchangesWithTheBodiesToTheBit)
 {
 	std::mt19937_64 random(78);

@@ -19,7 +19,15 @@ namespace yade {
 /// their own: they may separate, and their joints carry the contact forces.
 bool mayHaveInternalFaces(const Body& body1, const Body& body2);
 
-/// The planes near the overlap that are internal faces.
-polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding);
+/// The planes of a touching pair near the overlap that are internal faces.
+struct InternalFaces {
+	/// \param settings those of the query that has found the contact, with the planes that bound the overlap. Where both bodies are pieces, the overlap of
+	/// their solids may reach internal faces that their own does not: there further queries look for them, and have used the workspace.
+	InternalFaces(const TouchingPair& pair, const polytope::PlacedPair& placed, polytope::ContactSettings settings,
+	        polytope::PairMemory memory, polytope::ContactWorkspace& workspace);
+
+	polytope::InternalPlanes planes;
+	bool                     queried = false; ///< whether the workspace was used
+};
 
 } // namespace yade

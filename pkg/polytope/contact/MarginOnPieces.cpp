@@ -22,7 +22,7 @@ MarginOnPieces::MarginOnPieces(const TouchingPair& pair, int mover, const CoreOf
 
 	const Vector3r ofMover = pair.centre[mover] - pair.point;
 	if (!add(bodyOf(pair, 1 - mover), pair.centre[1 - mover] - pair.point, ofMover)) return;
-	forOtherPieces(pair, mover, [&](const Body& piece, const Vector3r& centre, const Vector3r&) { add(piece, centre, ofMover); });
+	forOtherPieces(pair, mover, [&](const Body& piece, const Vector3r& centre) { add(piece, centre, ofMover); });
 }
 
 bool MarginOnPieces::add(const Body& body, const Vector3r& centre, const Vector3r& ofMover)

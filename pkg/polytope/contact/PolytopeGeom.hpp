@@ -27,8 +27,6 @@
 
 namespace yade {
 
-struct TouchingPair;
-
 /// Half-spaces that represent YADE's own shape in a mixed pair (MixedPairs.hpp), and a facet's side.
 struct StandIn {
 	std::shared_ptr<const polytope::ConvexShape> partner;
@@ -273,9 +271,6 @@ protected:
 	/// Whether a pair without a geometry has no need of one. Else the query that makes it starts without memory: what a new contact is
 	/// does not depend on what the pair remembers, so it is the same in a scene that was saved and loaded before.
 	bool isApart(const polytope::PlacedPair& pair, polytope::ContactWorkspace& workspace, const Interaction& c);
-
-	/// Finds internal faces; true if they differ from those in the geometry, which is then updated.
-	static bool findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom);
 
 	/// Counts the result and, for a contact, writes it into ScGeom. `origin1`: what result.point is relative to. A failure is a result whose
 	/// normal is no unit vector (tolerance::orthogonal), whose point, depth, area, energy or turning arm is not finite or whose area is

@@ -213,16 +213,20 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	polytope::contactQuery(pair, settings, memory, workspace, result);
 	bool sameSurface = result.surfaceKept;
 	if (result.inContact && settings.bounding) {
-		const TouchingPair touching { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
-			{ frame1.rotation, rotation2 }, frame1.origin + bounding.point, -result.infeasibility };
-		if (findInternalFaces(touching, bounding, geom)) {
-			settings.bounding = nullptr;
+		const TouchingPair  touching { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
+			 { frame1.rotation, rotation2 }, frame1.origin + bounding.point, -result.infeasibility };
+		const InternalFaces found(touching, pair, settings, memory, workspace);
+		const bool          changed = geom.setInternalPlanes(found.planes);
+		geom.internalKnown          = true;
+		settings.bounding           = nullptr;
+		if (polytope::ContactResult near; !changed && afterSearch && followed.take(near))
+			return write(near, frame1.origin, state1, state2, shift2, force, c);
+		if (changed || found.queried) {
 			internal          = geom.internalPlanes();
 			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(pair, settings, memory, workspace, result);
 			sameSurface = false;
-		} else if (polytope::ContactResult near; afterSearch && followed.take(near))
-			return write(near, frame1.origin, state1, state2, shift2, force, c);
+		}
 	}
 	if (afterSearch) geom.linear.clear();
 	if (result.inContact) giveShare(math::max(result.share, Real(polytope::tolerance::leastShareOfSupport)), geom, *c, result);
@@ -230,12 +234,6 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	const bool goesOn = write(result, frame1.origin, state1, state2, shift2, force, c);
 	followed.end(settings, memory, sameSurface, workspace, result); // the result's outline is gone after that
 	return goesOn;
-}
-
-bool PolytopeGeomFunctor::findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
-{
-	geom.internalKnown = true;
-	return geom.setInternalPlanes(internalPlanes(pair, bounding));
 }
 
 bool PolytopeGeomFunctor::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,

@@ -11,6 +11,10 @@
 #include "host/PartsOfBodies.hpp"
 #include "shape/ShapeFamily.hpp"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 /// The pieces of a rigid support, on several of which a body may lie, as half-spaces around a contact.
 ///
 /// All of it follows from poses and shapes, not from other contacts' geometry, which other threads may be writing.
@@ -32,9 +36,8 @@ inline const Body& bodyOf(const TouchingPair& pair, int which)
 	return *Body::byId(which == 0 ? pair.contact->getId1() : pair.contact->getId2(), pair.scene);
 }
 
-/// Which of the bodies (0, 1) is the support where both are pieces: the fixed one, else the one with the lower number. The pieces of the
-/// other one may be too far away to be seen here, so the solids of several contacts would differ; but its seams move with it, so it does
-/// not slide over them.
+/// Which of the bodies (0, 1) is the support of a shape with a margin where both are pieces (MarginOnPieces.hpp): the fixed one, else the one with the lower
+/// number.
 int supportOf(const TouchingPair& pair);
 
 /// Half-spaces of a body whose centre is at `centre` from the contact point, as a body whose centre is at `other` meets it. None for
@@ -51,17 +54,28 @@ const polytope::Plane* faceAt(const Solid& solid, const Vector3r& outward, const
 /// How high a step between two faces is that count as one.
 Real flushStep(const TouchingPair& pair);
 
-/// Calls visit(neighbour, its centre from the contact point, its shift) for the other pieces of the rigid support that body `mover` of the
-/// pair may touch: they are in its list of pairs.
+/// Calls visit(neighbour, its centre from the contact point) for the other pieces of the rigid support that body `mover` of the pair, or what moves as
+/// one with it, may touch: those of a clump that moves, and the fixed ones in the lists of pairs of the mover and of the parts of its clump.
 template <class Visit> void forOtherPieces(const TouchingPair& pair, int mover, const Visit& visit)
 {
-	const Body&    body   = bodyOf(pair, mover);
-	const Body&    own    = bodyOf(pair, 1 - mover);
-	const Vector3r centre = pair.centre[mover] - pair.point;
-	forPartners(body, own.id, *pair.scene, [&](const Body& piece, const Vector3r& shift) {
-		if (!rigidTogether(piece, own, *pair.scene)) return;
-		const Vector3r way = piece.state->pos - body.state->pos + shift;
-		visit(piece, Vector3r(centre + way), shift);
+	const Body &   body = bodyOf(pair, mover), &own = bodyOf(pair, 1 - mover);
+	const Vector3r centre = pair.centre[mover] - pair.point, ofOwn = pair.centre[1 - mover] - pair.point;
+	if (!isFixed(own, *pair.scene)) {
+		if (!own.isClumpMember()) return;
+		forParts(moverOf(own, *pair.scene), *pair.scene, [&](const Body& piece) {
+			if (piece.id == own.id || !piece.shape || !piece.maskOk(body.groupMask)) return;
+			visit(piece, Vector3r(ofOwn + piece.state->pos - own.state->pos));
+		});
+		return;
+	}
+	std::vector<std::pair<Body::id_t, Vector3r>> seen;
+	forParts(moverOf(body, *pair.scene), *pair.scene, [&](const Body& part) {
+		forPartners(part, own.id, *pair.scene, [&](const Body& piece, const Vector3r& shift) {
+			const std::pair<Body::id_t, Vector3r> image(piece.id, shift);
+			if (!rigidTogether(piece, own, *pair.scene) || std::find(seen.begin(), seen.end(), image) != seen.end()) return;
+			seen.push_back(image);
+			visit(piece, Vector3r(centre + piece.state->pos - body.state->pos + shift));
+		});
 	});
 }
 
