@@ -12,18 +12,21 @@
 
 namespace polytope {
 
-Real* ContactWorkspace::rows(int rowCount, int length)
-{
-	const std::size_t needed = std::size_t(rowCount) * length;
-	if (rows_.size() < needed) rows_.resize(needed);
-	return rows_.data();
-}
+namespace {
 
-Real* ContactWorkspace::polygons(int length)
-{
-	if (polygons_.size() < std::size_t(length)) polygons_.resize(length);
-	return polygons_.data();
-}
+	Real* atLeast(std::size_t needed, std::vector<Real>& numbers)
+	{
+		if (numbers.size() < needed) numbers.resize(needed);
+		return numbers.data();
+	}
+
+} // namespace
+
+Real* ContactWorkspace::rows(int rowCount, int length) { return atLeast(std::size_t(rowCount) * length, rows_); }
+
+Real* ContactWorkspace::rowsOfSolids(int rowCount, int length) { return atLeast(std::size_t(rowCount) * length, rowsOfSolids_); }
+
+Real* ContactWorkspace::polygons(int length) { return atLeast(std::size_t(length), polygons_); }
 
 int* ContactWorkspace::indices(int length)
 {
@@ -31,11 +34,7 @@ int* ContactWorkspace::indices(int length)
 	return indices_.data();
 }
 
-Real* ContactWorkspace::points(int count)
-{
-	if (points_.size() < 2 * std::size_t(count)) points_.resize(2 * count);
-	return points_.data();
-}
+Real* ContactWorkspace::points(int count) { return atLeast(2 * std::size_t(count), points_); }
 
 void ContactWorkspace::finishOutline(bool exchanged, ContactResult& result)
 {
@@ -146,8 +145,9 @@ void contactQuery(
 			kernel(other, exchanged, memory, workspace, result);
 		} else kernel(other, settings, memory, workspace, result);
 		exchangeBodies(memory);
-		if (settings.bounding) exchangeBodies(*settings.bounding, centre2, dimension);
 		exchangeBodies(result, centre2, dimension);
+		for (int k = 0; settings.inside && result.inContact && k < dimension; ++k)
+			(*settings.inside)[k] += centre2[k];
 		if (settings.linear) settings.linear->begin(pair, true, result);
 		if (result.outlineCount > 0) workspace.finishOutline(true, result);
 		return;

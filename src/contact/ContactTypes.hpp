@@ -36,31 +36,21 @@ enum class ContactModel : int {
 /// Whether the contact is that of a surface (SurfaceContact.hpp).
 constexpr bool hasSurface(ContactModel model) { return model == ContactModel::Foundation || model == ContactModel::Spring; }
 
-/// Planes of each body that bound the overlap, or are next to it (BoundingPlanes.hpp), with their slacks at the contact point [m];
-/// those of the largest leverage where there are more than fit.
-struct BoundingPlanes {
-	static constexpr int most     = 16;
-	int                  count[2] = { 0, 0 };
-	int                  plane[2][most];
-	Real                 slack[2][most];
-	Real                 leverage[2][most];
-	Vector3              point = Vector3::Zero(); ///< where the slacks are: world axes, from body 1's centre
-};
-
-/// Planes of each body that are internal faces of a larger solid: covered by a neighbour where the other body passes, so that
-/// nothing can touch them. The contact surface is that without them.
+/// The solids that two bodies are pieces of: planes of each body that are internal faces, which neighbours cover where the other body passes, so that
+/// nothing can touch them; and the planes of the solid that other pieces of it have near. The contact surface is that of the solids.
 struct InternalPlanes {
-	int count[2] = { 0, 0 };
-	int plane[2][BoundingPlanes::most];
-	/// For each how far the solid goes on beyond it, along its normal [m]; infinite: it ends nowhere near.
-	Real beyond[2][BoundingPlanes::most];
+	static constexpr int most = 32, mostEnds = 64;
+
+	int   count[2] = { 0, 0 };
+	int   plane[2][most];
+	int   ends[2] = { 0, 0 };
+	Plane end[2][mostEnds]; ///< in the body's axes and from its centre [m]
+	/// No point of the overlap of the solids is farther from the body's centre [m], where it has internal planes.
+	Real radius[2] = { std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity() };
 
 	bool none() const { return count[0] + count[1] == 0; }
-	void add(int body, int index, const Real& farther = std::numeric_limits<Real>::infinity())
-	{
-		plane[body][count[body]]    = index;
-		beyond[body][count[body]++] = farther;
-	}
+	void add(int body, int index) { plane[body][count[body]++] = index; }
+	void addEnd(int body, const Plane& ofSolid) { end[body][ends[body]++] = ofSolid; }
 };
 
 struct ContactResult;
@@ -96,12 +86,11 @@ struct ContactSettings : ContactOptions {
 	/// Give point, normal and (negative) depth also for a separated pair: a real interaction needs them until its law
 	/// ends it.
 	bool geometryAcrossGap = false;
-	/// Models with a surface: planes left out, or null.
+	/// Models with a surface: the solids that the bodies are pieces of, or null.
 	const InternalPlanes* internal = nullptr;
-	/// Models with a surface: where the planes that bound a touching pair's overlap are written to, or null.
-	BoundingPlanes* bounding = nullptr;
-	/// Whether these are those of the overlap without the planes left out.
-	bool boundingOfSolids = false;
+	/// Models with a surface: where the program's point of a touching pair is written to, which is inside the overlap, or null; world axes, from body 1's
+	/// centre.
+	Vector3* inside = nullptr;
 	/// Models with a surface: the law of a joint that stiffens as it closes, or null.
 	const ClosureLaw* closure = nullptr;
 	/// 3-D, models with a surface: what gives the contact in the next steps (LinearContact.hpp), or null. Written where the surface has the vertices of
@@ -163,6 +152,8 @@ struct ContactResult {
 class POLYTOPE_API ContactWorkspace {
 public:
 	Real* rows(int rowCount, int length);
+	/// For the planes of the solids that two bodies are pieces of.
+	Real* rowsOfSolids(int rowCount, int length);
 	Real* polygons(int length);
 	int*  indices(int length);
 	/// For the corners of the contact's outline.
@@ -171,7 +162,7 @@ public:
 	void finishOutline(bool exchanged, ContactResult& result);
 
 private:
-	std::vector<Real>    rows_, polygons_, points_;
+	std::vector<Real>    rows_, rowsOfSolids_, polygons_, points_;
 	std::vector<int>     indices_;
 	std::vector<Vector2> corners_;
 };

@@ -58,10 +58,10 @@ void linearByDifferences(const PlacedPair& pair, const ContactSettings& settings
 	const Real      radius = radiusOf(pair, settings.internal);
 	const Real      across = Real(tolerance::linearAcross) * -result.infeasibility;
 	ContactSettings plain(settings);
-	plain.section  = true;
-	plain.outline  = false;
-	plain.bounding = nullptr;
-	plain.linear   = nullptr;
+	plain.section = true;
+	plain.outline = false;
+	plain.inside  = nullptr;
+	plain.linear  = nullptr;
 
 	const Load load        = loadOf(result, perArea, x, radius, result.share, one);
 	Real       slope[6][6] = {};

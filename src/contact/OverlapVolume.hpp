@@ -110,6 +110,16 @@ public:
 		return true;
 	}
 
+	/// Calls visit(plane, how many corners, gives the k-th one) for the faces; false if they are not all known.
+	template <class Visit> bool forFaces(const Visit& visit) const
+	{
+		for (int face = 0; face < loops_.faces && whole_; ++face)
+			if (loops_.count[face] >= 3)
+				visit(loops_.plane[face], loops_.count[face],
+				        [&](int k, R* p) { loops_.get(loops_.corner[face * room_ + k], p); });
+		return whole_;
+	}
+
 	/// The overlap's footprint along n: a sum over the faces that are turned to n. The moments are those about p of all faces together; ringArea()
 	/// has the first ones of a single ring.
 	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const

@@ -54,18 +54,9 @@ inline void exchangeBodies(InternalPlanes& planes)
 {
 	std::swap(planes.count[0], planes.count[1]);
 	std::swap(planes.plane[0], planes.plane[1]);
-	std::swap(planes.beyond[0], planes.beyond[1]);
-}
-
-/// The planes for the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.
-inline void exchangeBodies(BoundingPlanes& planes, const Vector3& centre2, int dimension)
-{
-	std::swap(planes.count[0], planes.count[1]);
-	std::swap(planes.plane[0], planes.plane[1]);
-	std::swap(planes.slack[0], planes.slack[1]);
-	std::swap(planes.leverage[0], planes.leverage[1]);
-	for (int k = 0; k < dimension; ++k)
-		planes.point[k] += centre2[k];
+	std::swap(planes.ends[0], planes.ends[1]);
+	std::swap(planes.end[0], planes.end[1]);
+	std::swap(planes.radius[0], planes.radius[1]);
 }
 
 /// The result for the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.

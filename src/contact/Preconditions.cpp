@@ -30,18 +30,24 @@ namespace {
 	std::string faultOf(const InternalPlanes& planes, const ConvexShape& shape1, const ConvexShape& shape2)
 	{
 		for (int body = 0; body < 2; ++body) {
-			if (planes.count[body] < 0 || planes.count[body] > BoundingPlanes::most)
-				return "settings.internal: a body has room for " + std::to_string(BoundingPlanes::most)
+			const std::string shape = "shape" + std::to_string(body + 1);
+			if (planes.count[body] < 0 || planes.count[body] > InternalPlanes::most)
+				return "settings.internal: a body has room for " + std::to_string(InternalPlanes::most)
 				        + " internal planes";
-			for (int k = 0; k < planes.count[body]; ++k) {
-				const int         plane = planes.plane[body][k];
-				const std::string named = std::to_string(plane), shape = "shape" + std::to_string(body + 1);
-				if (plane < 0 || plane >= (body ? shape2 : shape1).planeCount())
-					return "settings.internal: " + shape + " has no plane " + named;
-				if (!(planes.beyond[body][k] >= 0))
-					return "settings.internal: how far the solid goes on beyond plane " + named + " of " + shape
-					        + " must be at least 0 [m], or infinite";
+			for (int k = 0; k < planes.count[body]; ++k)
+				if (planes.plane[body][k] < 0 || planes.plane[body][k] >= (body ? shape2 : shape1).planeCount())
+					return "settings.internal: " + shape + " has no plane " + std::to_string(planes.plane[body][k]);
+			if (planes.ends[body] < 0 || planes.ends[body] > InternalPlanes::mostEnds)
+				return "settings.internal: a body has room for " + std::to_string(InternalPlanes::mostEnds)
+				        + " planes of its solid's other pieces";
+			for (int k = 0; k < planes.ends[body]; ++k) {
+				const Plane& end = planes.end[body][k];
+				if (!(abs(end.normal.squaredNorm() - 1) <= Real(tolerance::orthogonal)) || !isfinite(end.offset))
+					return "settings.internal: planes of the solid of " + shape
+					        + " must have unit normals and finite offsets [m]";
 			}
+			if (!(planes.radius[body] > 0))
+				return "settings.internal: the radius of the overlap about " + shape + " must be positive [m], or infinite";
 		}
 		return "";
 	}

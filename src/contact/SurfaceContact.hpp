@@ -100,26 +100,26 @@ template <class R> POLYTOPE_INLINE R skinAcrossGap(R apart, R size)
 	return maxOf<R>(R(tolerance::gapSkin) * size, minOf<R>(apart, R(tolerance::widestSkin) * size));
 }
 
-/// The surface of the pair; where internal faces are left out, that of the solid, with its part on the piece. `across`: the pair does not touch.
+/// The surface of the pair; of pieces that of their solids, with its part on them. `across`: the pair does not touch.
 template <class R, int D, int W>
 POLYTOPE_INLINE void surfaceOfPair(const PairQuery<R, D>& q, bool across, SurfaceOnPiece<R, D>& piece, PairSurface<R, D>& surface)
 {
-	const ContactSettings& settings = q.settings;
-	ExtendedPieces<R, D>   extended(q.planes);
-	LpBasis<R, D>          solid;
-	if (settings.internal && !across && beginOnPieces<R, D>(*settings.internal, q.planes, extended, piece.clips)) {
+	const InternalPlanes* const internal = across ? nullptr : q.settings.internal;
+	SolidsPlanes<R, D>          solids;
+	LpBasis<R, D>               ofSolids;
+	if (internal && clipsOfPieces<R, D>(*internal, q.planes, piece.clips)) {
 		surface.on   = &piece;
-		surface.size = maxOf<R>(q.frame.size, sizeOfOverlap<R>(q.in, *settings.internal));
+		surface.size = maxOf<R>(q.frame.size, sizeOfOverlap<R>(q.in, *internal));
+		solids.begin(q, *internal, surface.size);
 	}
 	const auto optimum = [&]() POLYTOPE_INLINE_LAMBDA -> const LpBasis<R, D>* {
 		if (!surface.on) return &q.basis;
-		return programOnPieces<R, D, W>(q, surface.size, solid) ? &solid : nullptr;
+		return solids.template solve<W>(q, surface.size, ofSolids) ? &ofSolids : nullptr;
 	};
 	// one call, so that the code of the surface is there once: a second time only where the solid of several pieces has none
 	for (bool found = false; !found;) {
-		findSurface<R, D, W>(q.planes, optimum, q.workspace, surface);
+		findSurface<R, D, W>(surface.on ? solids.planes() : q.planes, optimum, q.workspace, surface);
 		found = !surface.on || isFoundOnPieces<R, D>(q.limits, surface);
-		extended.restore();
 		if (!found) surface = PairSurface<R, D>(q.frame.size, surface.energy, surface.outline, surface.kept);
 	}
 }
@@ -240,7 +240,7 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 	ContactResult&         out      = q.out;
 
 	const bool energy = settings.energy || settings.contactModel == ContactModel::Spring || settings.closure;
-	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(q);
+	if (settings.inside && !across) *settings.inside = worldPoint<R, D>(q.in, q.frame, toBody<R, D>(q.frame, q.frame.home, q.x));
 	PairSurface<R, D> surface(
 	        q.frame.size + grown, energy, settings.outline, settings.warmStart && !across ? &q.memory.surface : nullptr);
 	SurfaceStiffness<R> stiffness;

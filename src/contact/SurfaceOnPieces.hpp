@@ -1,127 +1,132 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/BoundingPlanes.hpp"
-#include "contact/ContactPointRules.hpp"
 #include "contact/PairSurface.hpp"
 #include "contact/PhaseOne.hpp"
-#include "contact/WarmStart.hpp"
+#include "contact/PlacePlanes.hpp"
 #include "program/BasisSolver.hpp"
 
-#include <algorithm>
-
-/// The contact surface of a body on one of several flush pieces: that of the solid which they make, without the faces between them, and the
-/// part of it on this piece. Where both bodies are pieces, it is that of both solids, and the part which is on both pieces. The solid is taken to
-/// be the piece with each such face moved out to where the solid ends beyond it. Where the pieces are no such solid, as about a corner that points
+/// The contact surface of a body on one of several flush pieces: that of the solid which they make, and the part of it on this piece. Where both
+/// bodies are pieces, it is that of both solids, and the part which is on both pieces. The solid is taken to be the piece without the faces that its
+/// neighbours cover, within the planes that these have near. Where the pieces are no such solid, as about a corner that points
 /// inwards, it differs from them beside the piece alone: the pressure on the piece, and so its part of the force, are right all the same.
 namespace polytope {
 
-/// Planes of internal faces, moved to where the solid ends beyond them until they are restored.
-template <class R, int D> class ExtendedPieces {
-public:
-	POLYTOPE_INLINE explicit ExtendedPieces(PairPlanes<R, D>& planes) : planes_(planes) { }
-	ExtendedPieces(const ExtendedPieces&)            = delete;
-	ExtendedPieces& operator=(const ExtendedPieces&) = delete;
+constexpr int inWholeLanes(int count) { return (count + padWidth - 1) / padWidth * padWidth; }
 
-	POLYTOPE_APART void extend(const InternalPlanes& internal)
+/// The planes of both solids, in the rows of both pieces and behind them: of each solid those of the piece but the internal ones, and the ends of the other
+/// pieces. Last come D + 1 planes of a simplex that the overlap lies in, for the program to begin with. `size`: about the frame's origin, of the overlap.
+template <class R, int D> class SolidsPlanes {
+public:
+	POLYTOPE_APART void begin(const PairQuery<R, D>& q, const InternalPlanes& internal, R size)
 	{
-		for (int body = 0; body < 2; ++body)
-			for (int k = 0; k < internal.count[body]; ++k) {
-				const int i     = planes_.begin(body) + internal.plane[body][k];
-				place_[count_]  = i;
-				offset_[count_] = planes_.offset[i];
-				++count_;
-				planes_.offset[i]
-				        = minOf<R>(planes_.offset[i] + R(internal.beyond[body][k]), R(padOffset)); // that no body reaches
-			}
-	}
-	POLYTOPE_INLINE void restore()
-	{
-		while (count_ > 0) {
-			--count_;
-			planes_.offset[place_[count_]] = offset_[count_];
+		const PairPlanes<R, D>& own    = q.planes;
+		const int               ends[] = { inWholeLanes(internal.ends[0]), inWholeLanes(internal.ends[1]) };
+		planes_.first                  = own.first + ends[0];
+		simplex_                       = own.total + ends[0] + ends[1];
+		planes_.total                  = simplex_ + inWholeLanes(D + 1);
+		R* const row                   = q.workspace.rowsOfSolids(D + 3, planes_.total);
+		for (int k = 0; k < D; ++k)
+			planes_.normal[k] = row + k * planes_.total;
+		planes_.offset = row + D * planes_.total;
+		planes_.slack  = row + (D + 1) * planes_.total;
+		planes_.rate   = row + (D + 2) * planes_.total;
+		for (int body = 0; body < 2; ++body) {
+			int to = planes_.begin(body);
+			for (int i = own.begin(body); i < own.end(body); ++i)
+				copy(own, i, to++);
+			for (int k = 0; k < internal.count[body]; ++k)
+				leaveOut(planes_.begin(body) + internal.plane[body][k]);
+			for (int k = 0; k < ends[body]; ++k)
+				if (k < internal.ends[body]) place(q.frame, body, internal.end[body][k], to++);
+				else leaveOut(to++);
 		}
+		for (int k = 0; k < inWholeLanes(D + 1); ++k)
+			leaveOut(simplex_ + k);
+		placeSimplex(R(tolerance::simplexAround) * size);
+	}
+
+	const PairPlanes<R, D>& planes() const { return planes_; }
+
+	/// The optimum of the program; false where there is none to find a surface from.
+	template <int W> POLYTOPE_APART bool solve(const PairQuery<R, D>& q, R size, LpBasis<R, D>& optimum) const
+	{
+		for (int k = 0; k <= D; ++k)
+			optimum.plane[k] = simplex_ + k;
+		if (!solveBasis<R, D>(planes_, optimum)) return false;
+		ProgramLimits<R> all = q.limits;
+		all.dismissAbove     = R(padOffset);
+		int pivots           = 0;
+		return solvePhaseOne<R, D, W>(StartBasis::Aimed, planes_, all, size, optimum, pivots) == LpStatus::Optimal
+		        && optimum.infeasibility < -q.limits.tolerance;
 	}
 
 private:
-	PairPlanes<R, D>& planes_;
-	int               count_ = 0, place_[2 * BoundingPlanes::most];
-	R                 offset_[2 * BoundingPlanes::most];
+	POLYTOPE_INLINE void copy(const PairPlanes<R, D>& own, int i, int to)
+	{
+		for (int k = 0; k < D; ++k)
+			planes_.normal[k][to] = own.normal[k][i];
+		planes_.offset[to] = own.offset[i];
+	}
+	POLYTOPE_INLINE void leaveOut(int i)
+	{
+		for (int k = 0; k < D; ++k)
+			planes_.normal[k][i] = 0;
+		planes_.offset[i] = R(padOffset);
+	}
+	POLYTOPE_INLINE void place(const ContactFrame<R, D>& f, int body, const Plane& plane, int i)
+	{
+		R own[D], a[D], d;
+		for (int k = 0; k < D; ++k)
+			own[k] = R(plane.normal[k]);
+		framePlane<R, D>(f, body, own, R(plane.offset), a, d);
+		for (int k = 0; k < D; ++k)
+			planes_.normal[k][i] = a[k];
+		planes_.offset[i] = d;
+	}
+	/// Regular in space: (1, 1, 1), (1, −1, −1), (−1, 1, −1), (−1, −1, 1) over √3; in the plane with a right angle.
+	POLYTOPE_INLINE void placeSimplex(R distance)
+	{
+		using std::sqrt;
+		for (int k = 0; k <= D; ++k) {
+			const R long_ = 1 / sqrt(R(D));
+			if constexpr (D == 3) {
+				planes_.normal[0][simplex_ + k] = k < 2 ? long_ : -long_;
+				planes_.normal[1][simplex_ + k] = k % 2 == 0 ? long_ : -long_;
+				planes_.normal[2][simplex_ + k] = k == 0 || k == 3 ? long_ : -long_;
+			} else {
+				planes_.normal[0][simplex_ + k] = k == 0 ? R(-1) : k == 1 ? R(0) : long_;
+				planes_.normal[1][simplex_ + k] = k == 0 ? R(0) : k == 1 ? R(-1) : long_;
+			}
+			planes_.offset[simplex_ + k] = distance;
+		}
+	}
+
+	PairPlanes<R, D> planes_;
+	int              simplex_ = 0; ///< row of the first of its planes
 };
 
-/// The planes that bound the overlap, with their slacks at its analytic centre. What is in the frame turns with it.
-template <class R, int D, int W> POLYTOPE_APART void boundingPlanesOf(PairQuery<R, D> q)
-{
-	BoundingPlanes&      bounding = *q.settings.bounding;
-	ExtendedPieces<R, D> extended(q.planes);
-	if (q.settings.internal && q.settings.boundingOfSolids) extended.extend(*q.settings.internal);
-	R centre[D];
-	for (int k = 0; k < D; ++k)
-		centre[k] = q.x[k];
-	newtonCentre<R, D, W>(q, centre, R(q.settings.newtonTolerance));
-	boundingPlanes<R, D, W>(q.planes, centre, bounding);
-	bounding.point = worldPoint<R, D>(q.in, q.frame, toBody<R, D>(q.frame, q.frame.home, centre));
-	extended.restore();
-}
-
-/// Length that bounds the overlap of the extended pieces: it lies within each of them enlarged about its centre until it reaches as far as the
-/// solid, for planes that are moved out by no more than that factor bound no more.
+/// Length within which the overlap of the solids lies, about the centre of one of the bodies.
 template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PlacedPair& in, const InternalPlanes& internal)
 {
 	R size = R(padOffset);
-	for (int piece = 0; piece < 2; ++piece) {
-		R larger = 1;
-		for (int k = 0; k < internal.count[piece]; ++k) {
-			const R own = in.shape[piece]->offsetArray()[internal.plane[piece][k]];
-			larger      = maxOf<R>(larger, own > 0 ? R(1 + R(internal.beyond[piece][k]) / own) : R(padOffset));
-		}
-		size = minOf<R>(size, larger * in.shape[piece]->boundingRadius());
-	}
+	for (int body = 0; body < 2; ++body)
+		size = minOf<R>(size, R(internal.count[body] > 0 ? internal.radius[body] : in.shape[body]->boundingRadius()));
 	return size;
 }
 
-/// Whether the body is bounded, and its solid too.
-inline bool isSolidBounded(const PlacedPair& in, const InternalPlanes& internal, int body)
-{
-	const Real* const beyond = internal.beyond[body];
-	return in.shape[body]->inscribedRadius() < Real(padOffset)
-	        && std::all_of(beyond, beyond + internal.count[body], [](const Real& way) { return way < Real(padOffset); });
-}
-
-/// The optimum of the program of the extended pieces, from the planes that touch the ball of one of them: of one whose solid is bounded. `size`: that
-/// of a body in which the overlap lies. False where it has no optimum to find a surface from.
-template <class R, int D, int W> POLYTOPE_APART bool programOnPieces(PairQuery<R, D> q, R size, LpBasis<R, D>& optimum)
-{
-	const InternalPlanes& internal = *q.settings.internal;
-	const int             ball     = internal.count[0] > 0 && isSolidBounded(q.in, internal, 1) ? 1 : 0;
-	if (!isSolidBounded(q.in, internal, ball)) return false;
-	PairMemory start;
-	for (int k = 0; k <= D; ++k)
-		start.basis[k] = planeCode(ball, q.in.shape[ball]->inscribedBasis()[k]);
-	recallBasis<R, D>(q.planes, start, optimum);
-	if (!solveBasis<R, D>(q.planes, optimum)) return false;
-	ProgramLimits<R> all = q.limits;
-	all.dismissAbove     = R(padOffset);
-	int pivots           = 0;
-	return solvePhaseOne<R, D, W>(StartBasis::Aimed, q.planes, all, size, optimum, pivots) == LpStatus::Optimal
-	        && optimum.infeasibility < -q.limits.tolerance;
-}
-
-/// The extended pieces in place of the pieces. What lies on the pieces is kept within `clips`; false if they have no room.
+/// What lies on the pieces is kept within `clips`: the planes left out. False if they have no room.
 template <class R, int D>
-POLYTOPE_APART bool beginOnPieces(
-        const InternalPlanes& internal, const PairPlanes<R, D>& planes, ExtendedPieces<R, D>& extended, SurfaceClips<R, D>& clips)
+POLYTOPE_APART bool clipsOfPieces(const InternalPlanes& internal, const PairPlanes<R, D>& planes, SurfaceClips<R, D>& clips)
 {
 	clips.count = 0;
 	for (int body = 0; body < 2; ++body)
 		for (int k = 0; k < internal.count[body]; ++k)
 			clips.add(planes, planes.begin(body) + internal.plane[body][k]);
-	if (clips.full()) return false;
-	extended.extend(internal);
-	return true;
+	return !clips.full();
 }
 
-/// Whether the surface of the extended pieces was found, with a force that has an area across it.
+/// Whether the surface of the solids was found, with a force that has an area across it.
 template <class R, int D> POLYTOPE_APART bool isFoundOnPieces(const ProgramLimits<R>& limits, const PairSurface<R, D>& surface)
 {
 	return surface.status == SurfaceStatus::Found && surface.deepest > limits.tolerance

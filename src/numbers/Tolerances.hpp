@@ -183,25 +183,36 @@ constexpr Real interiorStep = 0.9;
 /// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
 constexpr Real direction = 64 * rounding;
 
-/// Leverage (BoundingPlanes.hpp) from which on a plane counts as near: up to a thousand of the overlap's extents away. Where an overlap
-/// under the edge of an inclined joint begins, the face above it is that near as soon as its force is a thousandth of the contact's.
-constexpr Real nearLeverage = 1e-6;
-
 /// × the larger body's circumradius: faces of two pieces count as one face if one is not higher than this. What rounding of poses leaves of
 /// pieces that lie flush.
 constexpr Real flush = 1e-9;
 
 /// × radius of the overlap's ball: nor if it is higher than this, a fortieth of the depth of a face on a face. What digits of a file or settling
-/// leave of pieces that are meant to lie flush; a higher step lifts a body, and so has to take its share of the body's speed.
+/// leave of pieces that are meant to lie flush; a higher step lifts a body, and so has to take its share of the body's speed. Where a face of the
+/// overlap has its corners, neighbours must cover it this part of the way to its middle: of a flush face as deep.
 constexpr Real flushOfDepth = 0.05;
+
+/// × radius of the overlap's ball: how far outside of a face of a piece a neighbour that covers it is looked for. Close by, so that a point beside an oblique
+/// face is not above the neighbour; at a joint that is a little open; and beyond a gap that is as wide as the ball.
+constexpr Real closeBy[] = { 1e-3, 0.03, 2 };
+
+/// × extent of the overlap of two solids: planes of other pieces that are as near to it may bound it before the next search for internal faces, and are known; those up
+/// to the second number are known with them.
+constexpr Real endsNear = 0.02, endsKnown = 0.2;
+
+/// × thickness of the overlap of two pieces: that of their solids is no thicker, unless the pieces meet in a sliver, where the middle of that of the solids must be in
+/// them.
+constexpr Real grownOut = 4;
+
+/// Searches for internal faces in the overlap as it grows over the pieces, at the most: from one piece to the next.
+constexpr int piecesOnTheWay = 64;
+
+/// × extent of the overlap of two solids: distance of the simplex that its program begins with. No farther from the frame's origin, which is in the overlap, than
+/// twice the extent is any of its points.
+constexpr Real simplexAround = 2.5;
 
 /// × largest coordinate of two bodies: what rounding of their places and of their planes there leaves of an overlap where they lie flush.
 constexpr Real flushPlaces = 8 * rounding;
-
-/// × the inscribed radius of the body that lies on a piece: where the overlap is deeper below a face of the piece, it does not slide on
-/// this face. Faces that are internal must not become faces within an impact, where the energies of both differ: no overlap of DEM is so deep. The
-/// piece may be thin.
-constexpr Real deepestSlide = 1;
 
 /// × the inscribed radius of a shape's core: how deep a shape with a margin may be in one of several pieces that share its contact.
 constexpr Real thinContact = 0.1;
@@ -212,9 +223,9 @@ constexpr Real parallel = 1e-4;
 /// Least part of a stiffness that one of several pieces has. Any small number will do: zero would mean no contact.
 constexpr Real leastShareOfSupport = 1e-9;
 
-/// × size of the smaller body: ends of a support that are nearer to each other are the same. The outline of a contact that is followed may be off by more
-/// (linearAlong).
-constexpr Real endOfSupport = 1e-5;
+/// × extent of the overlap of two solids: planes of their other pieces that were there before, and are no farther from these, are the same. They turn with their body, and so
+/// differ by rounding.
+constexpr Real endOfSupport = 1e-9;
 
 /// Steps between two searches for internal faces of a pair that touched before: between two of them, a body at
 /// 1 m/s moves by a hundredth of its size at most.

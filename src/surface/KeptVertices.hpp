@@ -37,6 +37,20 @@ struct KeptVertices {
 		return own < (bodyOfCode(name) ? total : rowsOfBody1) ? own : -1;
 	}
 
+	/// Whether these have planes of the body that others have not.
+	bool hasOtherPlanesThan(const KeptVertices& others, int body) const
+	{
+		const auto name      = [](const KeptVertices& of, int k) { return of.plane[std::size_t(k)] ^ of.exchanged; };
+		const auto inAnOther = [&](int k) {
+			for (int j = 0; j < (others.vertices > 0 ? others.planes : 0); ++j)
+				if (name(others, j) == name(*this, k)) return true;
+			return false;
+		};
+		for (int k = 0; k < planes; ++k)
+			if (plane[std::size_t(k)] != noPressure && bodyOfCode(name(*this, k)) == body && !inAnOther(k)) return true;
+		return false;
+	}
+
 	/// The code of a row; −1 if it has none that fits.
 	static int name(int row, int rowsOfBody1)
 	{

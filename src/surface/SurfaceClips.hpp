@@ -13,7 +13,7 @@ namespace polytope {
 
 /// Half-spaces a·x ≤ d in the planes' frame.
 template <class R, int D> struct SurfaceClips {
-	static constexpr int most = 32;
+	static constexpr int most = 64;
 
 	int count = 0;
 	R   normal[most][D], offset[most];

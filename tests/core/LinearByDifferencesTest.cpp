@@ -31,7 +31,10 @@ struct Piece {
 	Piece()
 	{
 		for (int k = 0; k < shape->planeCount(); ++k)
-			if (shape->planes().normals[std::size_t(k)][0] > Real(0.5)) covered.add(0, k, 2);
+			if (shape->planes().normals[std::size_t(k)][0] > Real(0.5)) {
+				covered.add(0, k);
+				covered.addEnd(0, { shape->planes().normals[std::size_t(k)], shape->planes().offsets[std::size_t(k)] + 2 });
+			}
 	}
 };
 

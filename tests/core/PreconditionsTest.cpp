@@ -82,16 +82,23 @@ TEST(Preconditions, NameTheArgument)
 	bad          = good;
 	bad.internal = &internal;
 	EXPECT_TRUE(starts(fault(*solid, unturned, centre, bad), "settings.internal: shape2 has no plane 6"));
-	for (const Real beyond : { Real(-1), std::numeric_limits<Real>::quiet_NaN() }) {
-		InternalPlanes back;
-		back.add(0, 5, beyond);
-		bad.internal = &back;
-		EXPECT_TRUE(starts(
-		        fault(*solid, unturned, centre, bad), "settings.internal: how far the solid goes on beyond plane 5 of shape1"));
+	for (const Plane& plane : { Plane { Vector3(0, 0, 2), 1 }, Plane { Vector3(0, 0, 1), std::numeric_limits<Real>::infinity() } }) {
+		InternalPlanes ends;
+		ends.add(0, 5);
+		ends.addEnd(0, plane);
+		bad.internal = &ends;
+		EXPECT_TRUE(starts(fault(*solid, unturned, centre, bad),
+		        "settings.internal: planes of the solid of shape1 must have unit normals and finite offsets"));
 	}
+	InternalPlanes without;
+	without.radius[1] = 0;
+	bad.internal      = &without;
+	EXPECT_TRUE(
+	        starts(fault(*solid, unturned, centre, bad), "settings.internal: the radius of the overlap about shape2 must be positive"));
 	InternalPlanes farther; // as far as infinity
 	farther.add(0, 5);
-	farther.add(1, 0, 0);
+	farther.add(1, 0);
+	farther.addEnd(1, { Vector3(0, 1, 0), 1 });
 	bad.internal = &farther;
 	EXPECT_EQ(fault(*solid, unturned, centre, bad), "");
 }

@@ -2,6 +2,7 @@
 #include "contact/SurfaceContact.hpp"
 #include "ContactLoad.hpp"
 #include "SurfaceOfPair.hpp"
+#include "contact/PairOrder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -196,8 +197,9 @@ template <int D> struct CutSlab {
 			centre[k] = Vector3((top + low) / 2, 0, 0);
 			const Vector3 out((k == 0 ? 1 : -1), 0, 0);
 			for (int i = 0; i < half[k]->planeCount(); ++i)
-				if (half[k]->planes().normals[std::size_t(i)].dot(out) > Real(0.9))
-					covered[k].add(0, i, k == 0 ? end - seam : seam - begin);
+				if (half[k]->planes().normals[std::size_t(i)].dot(out) > Real(0.9)) covered[k].add(0, i);
+			covered[k].addEnd(0, { out, (end - begin) - (top - low) / 2 });
+			covered[k].radius[0] = whole->boundingRadius() + centre[k].norm();
 		}
 	}
 	static std::shared_ptr<const ConvexShape> slab(Real wide, Real high)
@@ -247,9 +249,8 @@ template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 				settings.internal              = &covered;
 				const ContactResult result     = query(piece, settings);
 				// named in the other order
-				InternalPlanes ofSecond;
-				for (int i = 0; i < covered.count[0]; ++i)
-					ofSecond.add(1, covered.plane[0][i], covered.beyond[0][i]);
+				InternalPlanes ofSecond = covered;
+				exchangeBodies(ofSecond);
 				settings.internal = &ofSecond;
 				EXPECT_EQ(query(swapped(piece), settings).share, result.share);
 				if (!result.inContact) continue;
@@ -320,7 +321,9 @@ template <int D> void expectManyPiecesToHaveTheContactOfTheSolid()
 						const Real beyond = n[2 * k] > Real(0.9) ? 4 - top[k]
 						        : n[2 * k] < Real(-0.9)          ? low[k] + 4
 						                                         : 0;
-						if (beyond > 0) covered.add(0, i, beyond);
+						if (!(beyond > 0)) continue;
+						covered.add(0, i);
+						covered.addEnd(0, { n, piece.shape[0]->planes().offsets[std::size_t(i)] + beyond });
 					}
 				}
 				ContactSettings settings   = with(ContactModel::Foundation);
@@ -387,9 +390,11 @@ template <int D> void expectPiecesOnPiecesToHaveTheContactOfTheSolids()
 				piece.shape[0]  = slab.half[one];
 				piece.shape[1]  = bar.half[other];
 				piece.centre2 += pair.rotation[1] * bar.centre[other] - slab.centre[one];
-				InternalPlanes both = slab.covered[one];
-				for (int i = 0; i < bar.covered[other].count[0]; ++i)
-					both.add(1, bar.covered[other].plane[0][i], bar.covered[other].beyond[0][i]);
+				InternalPlanes both = slab.covered[one], ofBar = bar.covered[other];
+				exchangeBodies(ofBar);
+				both.add(1, ofBar.plane[1][0]);
+				both.addEnd(1, ofBar.end[1][0]);
+				both.radius[1]             = ofBar.radius[1];
 				ContactSettings settings   = with(model);
 				settings.internal          = &both;
 				const ContactResult result = query(piece, settings);

@@ -25,7 +25,7 @@ void PolytopeGeomFunctor::count(const polytope::ContactResult& result)
 	if (ofScene().timing) {
 		count.lpNanoseconds += result.lpNanoseconds;
 		count.centreNanoseconds += result.centreNanoseconds;
-		count.timedPairs += result.newtonIterations > 0 || result.ipoptSolved;
+		count.timedPairs += result.hasGeometry && !result.linear;
 	}
 }
 

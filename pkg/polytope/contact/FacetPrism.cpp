@@ -157,4 +157,18 @@ void FacetInMesh::addCutsAt(int corner, const Vector3r& up, Prism& prism) const
 	}
 }
 
+void setGround(const Body& facet, const Vector3r& centre, const Body& body2, const Vector3r& other, Scene& scene, Solid& solid)
+{
+	const FacetInMesh        mesh(facet, body2, Vector3r(other - centre - (body2.state->pos - facet.state->pos)), scene);
+	const Quaternionr&       turn  = facet.state->ori;
+	const FacetInMesh::Prism prism = mesh.prism(mesh.sideOf(turn.conjugate() * Vector3r(other - centre)), 0);
+	solid.clear();
+	for (int k = 0; k < prism.count; ++k) {
+		if (k == FacetInMesh::Prism::back) continue;
+		const Vector3r normal = turn * prism.planes[std::size_t(k)].normal;
+		solid.planes.push_back({ normal, prism.planes[std::size_t(k)].offset + normal.dot(centre) });
+	}
+	solid.faces = 1;
+}
+
 } // namespace yade

@@ -7,6 +7,7 @@
 
 #include "contact/PieceTolerances.hpp"
 #include "shape/FacetShape.hpp"
+#include "shape/ShapeFamily.hpp"
 
 #include <array>
 #include <vector>
@@ -33,6 +34,7 @@ public:
 	int sideOf(const Vector3r& point) const;
 
 	struct Prism {
+		static constexpr int                                back = 1; ///< the second plane
 		std::array<polytope::Plane, 5 + pieces::cutsAtTips> planes;
 		int                                                 count = 0;
 		void                                                add(const Vector3r& normal, const Vector3r& point);
@@ -61,5 +63,9 @@ private:
 	Real lowest_[3], highest_[3];
 	bool known_[3] = { false, false, false };
 };
+
+/// The ground behind a facet at `centre`, as the others of its mesh leave it, which body 2 touches from `other`: world axes. One face, and what parts it from the
+/// others.
+void setGround(const Body& facet, const Vector3r& centre, const Body& body2, const Vector3r& other, Scene& scene, Solid& solid);
 
 } // namespace yade

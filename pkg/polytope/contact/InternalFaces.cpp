@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/InternalFaces.hpp"
 
+#include "contact/FacetPrism.hpp"
+
+#include <src/contact/OverlapFaces.hpp>
 #include <src/numbers/Tolerances.hpp>
 
 #include <algorithm>
@@ -10,257 +13,473 @@ namespace yade {
 
 namespace {
 
-	/// How far it is to an end that is not there.
 	const Real noEnd = std::numeric_limits<Real>::infinity();
 
-	/// A plane near the overlap, and a point just outside of it where a neighbour must be if the plane is an internal face.
-	struct Candidate {
-		int      plane;
-		Vector3r normal;     ///< of the plane
-		Real     offset;     ///< from the contact point
-		Vector3r outside;    ///< from the contact point
-		int      facePlane;  ///< of the face that is slid on
-		int      faceNumber; ///< among those that bound the overlap
-		Vector3r face;       ///< its normal
-		Real     faceOffset; ///< from the contact point
-		bool     internal    = false;
-		bool     faceCovered = false; ///< a neighbour fills the place above the face, too: nothing slides on it
-
-		/// From the contact point, beyond the face by the diameter of the largest ball in the overlap.
-		Vector3r aboveFace(const TouchingPair& pair) const { return (faceOffset + 2 * pair.ball) * face; }
-
-		/// Whether the neighbour's face continues the one that is slid on, to within `step`.
-		bool continuedBy(const Solid& neighbour, Real step) const { return faceAt(neighbour, face, faceOffset * face, step); }
+	/// A face of a piece, from the point in the overlap.
+	struct FaceOfPiece {
+		polytope::Plane plane;
+		int             own;                ///< its number among the planes of the piece that touches; −1: of another piece
+		bool            isCovered  = false; ///< by other pieces, where the overlap reaches it
+		bool            isInternal = false; ///< and goes on there
+		bool            isEnd      = false; ///< it does not
+		bool            bounds     = false; ///< the overlap
+		Real            apart      = noEnd; ///< least slack in the overlap
 	};
 
-	Vector3r boundingNormal(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int body, int k)
+	Vector3r middleOf(const std::vector<Vector3r>& corners)
 	{
-		Vector3r own = Vector3r::Zero();
-		for (int axis = 0; axis < pair.convex[body]->dimension(); ++axis)
-			own[axis] = pair.convex[body]->normalArray(axis)[bounding.plane[body][k]];
-		return pair.rotation[body] * own;
+		Vector3r sum = Vector3r::Zero();
+		for (const Vector3r& corner : corners)
+			sum += corner;
+		return sum / Real(corners.size());
 	}
 
-	/// The chord of the overlap through the contact point along a normal of the piece: how deep the other body is below that plane there. It ends in
-	/// none of that body's planes that are passed; infinite: in no plane of it.
-	template <class Passed>
-	Real chordBelow(
-	        const polytope::BoundingPlanes& bounding, int piece, int j, const std::vector<Vector3r> (&normals)[2], const Passed& passed)
-	{
-		const int other = 1 - piece;
-		Real      chord = noEnd;
-		for (int k = 0; k < bounding.count[other]; ++k) {
-			const Real cosine = -normals[other][k].dot(normals[piece][j]);
-			if (!(cosine > 0) || passed(bounding.plane[other][k])) continue;
-			chord = math::min(chord, Real(bounding.slack[piece][j] + bounding.slack[other][k] / cosine));
-		}
-		return chord;
-	}
-
-	/// Whether a body's plane is one of these.
-	bool isAmong(const polytope::InternalPlanes& internal, int body, int plane)
-	{
-		const int* const first = internal.plane[body];
-		const int* const end   = first + internal.count[body];
-		return std::find(first, end, plane) != end;
-	}
-
-	/// How deep a body may be below a face of a piece and still slide on it: within the thickness of the piece, and not as deep as half the
-	/// body. Deeper, it comes from another side, or has passed through. `normal`: of the face.
-	Real slidingDepth(const TouchingPair& pair, int piece, const Vector3r& normal)
-	{
-		return math::min(pair.convex[piece]->widthAlong(pair.rotation[piece].transpose() * normal),
-		        Real(Real(polytope::tolerance::deepestSlide) * pair.convex[1 - piece]->inscribedRadius()));
-	}
-
-	/// Pairs of a plane i near the overlap and a face j that the other body may slide on, neither of them `known` as internal. `outside` is reached along
-	/// j, so that it keeps the contact point's height below it.
-	std::vector<Candidate> candidatesOf(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece,
-	        const std::vector<Vector3r> (&normals)[2], const polytope::InternalPlanes& known)
-	{
-		std::vector<Candidate> all;
-		for (int j = 0; j < bounding.count[piece]; ++j) {
-			const Vector3r& face = normals[piece][j];
-			if (isAmong(known, piece, bounding.plane[piece][j])) continue;
-			if (!(chordBelow(bounding, piece, j, normals, [](int) { return false; }) < slidingDepth(pair, piece, face)))
-				continue;
-			for (int i = 0; i < bounding.count[piece]; ++i) {
-				const Vector3r& normal = normals[piece][i];
-				const Vector3r  along  = normal - normal.dot(face) * face; // along·normal = |along|²
-				if (i == j || along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
-				if (isAmong(known, piece, bounding.plane[piece][i])) continue;
-				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
-				all.push_back({ bounding.plane[piece][i], normal, bounding.slack[piece][i],
-				        way / along.squaredNorm() * along, bounding.plane[piece][j], j, face, bounding.slack[piece][j] });
-			}
-		}
-		return all;
-	}
-
-	/// Whether a plane of the piece, but this one, has this normal.
-	bool isOwnNormal(const Vector3r& normal, int but, const TouchingPair& pair, int piece)
-	{
-		const polytope::HalfSpaces& own    = pair.convex[piece]->planes();
-		const Vector3r              turned = pair.rotation[piece].transpose() * normal;
-		for (std::size_t k = 0; k < own.size(); ++k)
-			if (int(k) != but && own.normals[k].dot(turned) > 1 - Real(polytope::tolerance::parallel)) return true;
-		return false;
-	}
-
-	/// One of two bodies and the other pieces of its solid, from the contact point.
-	struct SolidOfPieces {
-		Solid              own;
-		std::vector<Solid> others;
-		struct Ball {
-			Vector3r centre;
-			Real     radius;
-		};
-		std::vector<Ball> balls; ///< around all of them
-
+	/// One of the two bodies, and what other pieces its solid has.
+	class SolidOfPieces {
+	public:
 		SolidOfPieces(const TouchingPair& pair, int which)
+		        : centre(pair.centre[which] + movedBy(pair, which) - pair.point), rotation(pair.rotation[which]),
+		          rounding_(roundingOf(pair)), step_(flushStep(pair)), ball_(pair.ball)
 		{
-			const int      other   = 1 - which;
-			const bool     isAlone = !isPiece(bodyOf(pair, other));
-			const Vector3r centre = pair.centre[which] - pair.point, seenFrom = pair.centre[other] - pair.point;
-			setBody(own, bodyOf(pair, which), centre, seenFrom, noEnd);
-			balls.push_back({ centre, pair.convex[which]->boundingRadius() });
-			if (!isPiece(bodyOf(pair, which))) return;
+			polytope::addPlanesOf({ *pair.convex[which], centre, rotation }, own_);
+			for (std::size_t k = 0; k < own_.size(); ++k)
+				faces.push_back({ own_[k], int(k) });
+			reach_ = centre.norm() + pair.convex[which]->boundingRadius();
+			if (!isPiece(bodyOf(pair, which)) || own_.size() < 2) return;
+			const int  other     = 1 - which;
+			const bool isAlone   = !isPiece(bodyOf(pair, other));
+			const bool bothFixed = isFixed(bodyOf(pair, which), *pair.scene) && isFixed(bodyOf(pair, other), *pair.scene);
 			// the overlap with a single body reaches no farther than that
 			const Real near = isAlone ? Real(2 * pair.convex[other]->boundingRadius()) : noEnd;
-			forOtherPieces(pair, other, [&](const Body& neighbour, const Vector3r& place) {
-				Solid solid;
-				setBody(solid, neighbour, place, seenFrom, near);
-				if (solid.planes.empty()) return;
-				const Real radius = familyOf(*neighbour.shape).boundingRadius(*neighbour.shape);
-				balls.push_back({ place, radius > 0 ? radius : noEnd }); // a wall's is not known
-				others.push_back(std::move(solid));
+			forOtherPieces(pair, other, [&](const Body& piece, const Vector3r& at) {
+				const Vector3r place   = at + movedBy(pair, which);
+				const bool     isFacet = dynamic_cast<const Facet*>(piece.shape.get());
+				const Real     radius  = familyOf(*piece.shape).boundingRadius(*piece.shape);
+				Piece          one { {}, place, radius > 0 ? radius : noEnd }; // a wall has none
+				// the other body, as it lies by the piece
+				const Vector3r met = place + pair.centre[other] - pair.point - at;
+				if (isFacet) setGround(piece, place, bodyOf(pair, other), met, *pair.scene, one.solid);
+				else setBody(one.solid, piece, place, met, near);
+				if (one.solid.planes.empty()) return;
+				// of two fixed bodies, what is fixed may as well be of the other one's solid: it is where that is in their overlap
+				if (bothFixed && contains(one.solid.planes, Vector3r::Zero())) return;
+				reach_ = math::max(reach_, Real(place.norm() + one.radius));
+				// prisms: the ground behind a facet goes on for ever, and so does a polygon
+				if (isFacet || pair.convex[which]->dimension() == 2) one.radius = noEnd;
+				pieces_.push_back(std::move(one));
 			});
 		}
 
-		/// Whether a point is in it, or not farther than `room` out of it.
-		bool holds(const Vector3r& point, const Real& room) const
+		bool isPieced() const { return !pieces_.empty(); }
+		/// Not less than the distance of any of its points.
+		Real reach() const { return reach_; }
+		bool isOpen() const { return isOpen_; }
+
+		/// Whether a point is in it.
+		bool holds(const Vector3r& point) const { return holds(point, true); }
+
+		/// Whether a face of the overlap is no wider than rounding: nothing can be said of it, and nothing presses on it.
+		bool isThin(const std::vector<Vector3r>& corners) const
 		{
-			const auto in = [&](const Solid& one) { return contains(one.planes, point, room); };
-			return in(own) || std::any_of(others.begin(), others.end(), in);
+			const Vector3r middle = middleOf(corners);
+			Vector3r       area   = Vector3r::Zero();
+			Real           length = 0;
+			for (std::size_t k = 0; k < corners.size(); ++k) {
+				const Vector3r arm = corners[k] - middle;
+				area += arm.cross(corners[(k + 1) % corners.size()] - middle) / 2;
+				length = math::max(length, arm.norm());
+			}
+			return area.norm() <= 4 * rounding_ * length;
 		}
 
-		/// Not less than how far it reaches along a direction.
-		Real reach(const Vector3r& direction) const
+		/// Whether other pieces fill the place outside of a face that the overlap has here, from corner to corner.
+		bool covers(const FaceOfPiece& face, const std::vector<Vector3r>& corners) const
 		{
-			Real farthest = -noEnd;
-			for (const Ball& ball : balls)
-				farthest = math::max(farthest, Real(ball.centre.dot(direction) + ball.radius));
-			return farthest;
+			const Vector3r  middle = middleOf(corners);
+			const Vector3r& out    = face.plane.normal;
+			const Real      inside = Real(polytope::tolerance::flushOfDepth), near = inside / 2 * roomBeside(face, middle);
+			return isBeside(face, middle, out, near)
+			        && std::all_of(corners.begin(), corners.end(), [&](const Vector3r& corner) {
+				           return isBeside(face, corner + inside * (middle - corner), out, near);
+			           });
 		}
+
+		/// Whether one of them rises above the face `beside`, at a point on the edge with it of a covered face with such a middle. It is looked for along
+		/// that face, and so at one height above it.
+		bool risesAt(const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Vector3r& middle) const
+		{
+			const Vector3r &n = face.plane.normal, &up = beside.plane.normal;
+			const Vector3r  along  = n - n.dot(up) * up; // along·n = |along|²
+			const Real      square = along.squaredNorm();
+			if (!(square > Real(polytope::tolerance::parallel))) return false;
+			const Vector3r step = Real(polytope::tolerance::flushOfDepth) * (middle - edge);
+			return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
+				for (const double way : polytope::tolerance::closeBy) {
+					const Vector3r out
+					        = edge + math::max(Real(Real(way) * ball_), Real(2 * rounding_)) / square * along;
+					if (piece.holds(out + step, rounding_) && piece.holds(out - step, -rounding_))
+						return true; // by more than rounding
+				}
+				return false;
+			});
+		}
+
+		/// The overlap goes on beyond this face, within the faces of the other pieces that do not cut `overlap`, the one of the two pieces.
+		void leaveOut(std::size_t which, const std::vector<polytope::OverlapFace>& overlap)
+		{
+			if (!isOpen_) addFacesOfOthers(overlap);
+			const polytope::Plane plane = faces[which].plane;
+			for (FaceOfPiece& face : faces)
+				face.isInternal = face.isInternal || (!face.isEnd && isSame(face.plane, plane));
+		}
+
+		std::vector<FaceOfPiece> faces; ///< first the own
+		const Vector3r           centre;
+		const Matrix3r           rotation;
+
+	private:
+		struct Piece {
+			Solid    solid;
+			Vector3r centre;
+			Real     radius;
+
+			bool holds(const Vector3r& point, const Real& room) const
+			{
+				const Real far = radius + room;
+				return (point - centre).squaredNorm() <= far * far && contains(solid.planes, point, room);
+			}
+		};
+
+		static Vector3r movedBy(const TouchingPair& pair, int which)
+		{
+			return which == 1 ? pair.nearer : Vector3r(Vector3r::Zero());
+		}
+
+		bool holds(const Vector3r& point, bool orOwn) const
+		{
+			if (pieces_[last_].holds(point, rounding_)) return true;
+			for (std::size_t k = 0; k < pieces_.size(); ++k)
+				if (pieces_[k].holds(point, rounding_)) {
+					last_ = k;
+					return true;
+				}
+			return orOwn && contains(own_, point, rounding_);
+		}
+
+		/// How far from the middle of an oblique face one may go along its normal until one is beyond another face of the solid.
+		Real roomBeside(const FaceOfPiece& face, const Vector3r& middle) const
+		{
+			Real room = noEnd;
+			for (const FaceOfPiece& other : faces) {
+				const Real rate = other.plane.normal.dot(face.plane.normal);
+				if (other.isInternal || &other == &face || !(rate > Real(polytope::tolerance::parallel))) continue;
+				const Real slack = other.plane.offset - other.plane.normal.dot(middle);
+				if (slack > 0) room = math::min(room, Real(slack / rate));
+			}
+			return room;
+		}
+
+		/// `out`: the way to one beyond the face; `near`: a point no farther than that is looked at.
+		bool isBeside(const FaceOfPiece& face, const Vector3r& point, const Vector3r& out, const Real& near) const
+		{
+			for (const double& way : polytope::tolerance::closeBy) {
+				const Real far = &way == polytope::tolerance::closeBy ? math::min(Real(Real(way) * ball_), near)
+				                                                      : Real(Real(way) * ball_);
+				if (holds(point + math::max(far, Real(2 * rounding_)) * out, face.own < 0)) return true;
+			}
+			return false;
+		}
+
+		bool isSame(const polytope::Plane& one, const polytope::Plane& other) const
+		{
+			return math::abs(one.offset - other.offset) <= step_ && (one.normal - other.normal).norm() * extent_ <= step_;
+		}
+
+		void addFacesOfOthers(const std::vector<polytope::OverlapFace>& overlap)
+		{
+			isOpen_ = true;
+			for (const polytope::OverlapFace& face : overlap)
+				for (const Vector3r& corner : face.corners)
+					extent_ = math::max(extent_, corner.norm());
+			for (const Piece& piece : pieces_)
+				for (std::size_t k = 0; k < piece.solid.faces; ++k) {
+					const polytope::Plane& plane = piece.solid.planes[k];
+					const bool             cuts  = std::any_of(overlap.begin(), overlap.end(), [&](const auto& face) {
+                                                return std::any_of(face.corners.begin(), face.corners.end(),
+						                     [&](const Vector3r& at) { return plane.normal.dot(at) > plane.offset + step_; });
+                                        });
+					const bool             isOwn = std::any_of(
+                                                own_.begin(), own_.end(), [&](const polytope::Plane& own) { return isSame(own, plane); });
+					if (!cuts && !isOwn) faces.push_back({ plane, -1 });
+				}
+		}
+
+		Planes              own_;
+		std::vector<Piece>  pieces_;
+		mutable std::size_t last_ = 0; ///< the piece that a point was in
+		Real                rounding_, step_, ball_, reach_, extent_ = 0;
+		bool                isOpen_ = false; ///< it goes on beyond a face of the piece
 	};
 
-	/// How far the solid goes on beyond a covered face, along its normal: to where the way from the overlap along that, within the face that
-	/// is slid on, leaves the pieces that continue this one. It does not end where it leaves through a face that this piece has, too, nor where `body`, which
-	/// lies on it, is not any more: there its end may be elsewhere for each place of the contact point, and not all pieces are known.
-	Real wayBeyond(
-	        const TouchingPair& pair, int piece, const Candidate& covered, const std::vector<Solid>& others, const SolidOfPieces& body)
-	{
-		const Vector3r    along = covered.outside.normalized();
-		const Real        step  = flushStep(pair);
-		Vector3r          at = covered.outside, leftAt = at;
-		Real              end = noEnd;
-		std::vector<bool> passed(others.size(), false);
-		for (bool in = true; in;) {
-			in = false;
-			for (std::size_t k = 0; k < others.size() && !in; ++k) {
-				if (passed[k] || !contains(others[k].planes, at) || !covered.continuedBy(others[k], step)) continue;
-				passed[k] = in = true;
-				Real leaves = noEnd, ends = noEnd;
-				for (const polytope::Plane& plane : others[k].planes) {
-					const Real rate = plane.normal.dot(along);
-					if (!(rate > Real(polytope::tolerance::parallel))) continue;
-					const Real way = (plane.offset - plane.normal.dot(at)) / rate;
-					leaves         = math::min(leaves, way);
-					if (!isOwnNormal(plane.normal, covered.plane, pair, piece)) ends = math::min(ends, way);
+	/// The overlap of two solids as far as their faces are known.
+	class OverlapOfSolids {
+	public:
+		OverlapOfSolids(SolidOfPieces (&solids)[2], bool flat, const Real& reach)
+		{
+			for (int body = 0; body < 2; ++body)
+				for (std::size_t k = 0; k < solids[body].faces.size(); ++k) {
+					FaceOfPiece& face = solids[body].faces[k];
+					face.bounds       = false;
+					if (face.isInternal) continue;
+					planes_.push_back(face.plane);
+					named_.push_back({ body, k });
 				}
-				if (!math::isfinite(leaves)) return noEnd;
-				end    = (at + (math::isfinite(ends) ? ends : leaves) * along).dot(covered.normal) - covered.offset;
-				leftAt = at + leaves * along;
-				at     = leftAt + 2 * pair.ball * along;
+			for (int side = flat ? -1 : 2; side < 2; side += 2) // a polygon's depth does not matter
+				planes_.push_back({ Vector3r(0, 0, side), reach });
+			faces_ = polytope::overlapFaces(planes_, 2 * reach);
+		}
+
+		const std::vector<polytope::OverlapFace>& faces() const { return faces_; }
+
+		/// Calls visit(body, number of the face, its corners).
+		template <class Visit> void forFaces(const Visit& visit) const
+		{
+			for (const polytope::OverlapFace& face : faces_)
+				if (const Name* const name = nameOf(face)) visit(name->body, name->face, face.corners);
+		}
+		/// Calls visit(number of the face beside it, its two ends) for the edges of a face of the body with faces of the same body.
+		template <class Visit> void forEdges(int body, const std::vector<Vector3r>& corners, const Visit& visit) const
+		{
+			for (const polytope::OverlapFace& face : faces_) {
+				const Name* const name = nameOf(face);
+				if (!name || name->body != body || &face.corners == &corners) continue;
+				for (std::size_t k = 0; k < corners.size(); ++k) {
+					const Vector3r &one = corners[k], &other = corners[(k + 1) % corners.size()];
+					const auto      has = [&](const Vector3r& corner) { // faces that meet have the same corners
+                                                return std::find(face.corners.begin(), face.corners.end(), corner) != face.corners.end();
+					};
+					if (has(one) && has(other)) visit(name->face, one, other);
+				}
 			}
 		}
-		// blocks often end where their neighbours do, but for an overlap
-		if (body.holds(leftAt, 4 * pair.ball)) return end;
-		return math::max(end, Real(body.reach(covered.normal) - covered.offset));
-	}
-
-	/// Slacks at the pair's point: the solids' overlap may have its centre far from the pieces, from where the way out of a support is another one.
-	void moveSlacks(polytope::BoundingPlanes& bounding, const TouchingPair& pair)
-	{
-		const Vector3r way = pair.centre[0] + bounding.point - pair.point;
-		for (int body = 0; body < 2; ++body)
-			for (int k = 0; k < bounding.count[body]; ++k)
-				bounding.slack[body][k] += boundingNormal(pair, bounding, body, k).dot(way);
-		bounding.point -= way;
-	}
-
-	/// Adds those that the planes which bound the overlap show, beside those found before; true if there were some.
-	bool addInternalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, polytope::InternalPlanes& found)
-	{
-		const polytope::InternalPlanes known = found;
-		std::vector<Candidate>         candidates[2];
-		const Real                     step = flushStep(pair);
-		std::vector<Vector3r>          normals[2];
-		for (int body = 0; body < 2; ++body)
-			for (int k = 0; k < bounding.count[body]; ++k)
-				normals[body].push_back(boundingNormal(pair, bounding, body, k));
-		for (int piece = 0; piece < 2; ++piece) {
-			if (bounding.count[piece] < 2 || !isPiece(bodyOf(pair, piece))) continue;
-			candidates[piece] = candidatesOf(pair, bounding, piece, normals, known);
+		template <class Visit> void forCorners(const Visit& visit) const
+		{
+			for (const polytope::OverlapFace& face : faces_)
+				for (const Vector3r& corner : face.corners)
+					visit(corner);
 		}
-		if (candidates[0].empty() && candidates[1].empty()) return false;
-		const SolidOfPieces solids[] = { { pair, 0 }, { pair, 1 } };
-		for (int piece = 0; piece < 2; ++piece)
-			for (const Solid& solid : solids[piece].others)
-				for (Candidate& one : candidates[piece]) {
-					one.internal
-					        = one.internal || (contains(solid.planes, one.outside) && one.continuedBy(solid, step));
-					one.faceCovered = one.faceCovered || contains(solid.planes, one.aboveFace(pair));
-				}
-		// neither of the two faces that slide is an internal face itself: of blocks that meet at a corner, or along an edge, no side is
-		const auto covered = [&](int piece, int plane) {
-			return std::any_of(candidates[piece].begin(), candidates[piece].end(),
-			        [&](const Candidate& one) { return one.internal && one.plane == plane; });
+
+	private:
+		struct Name {
+			int         body;
+			std::size_t face;
 		};
-		bool added = false;
-		for (int piece = 0; piece < 2; ++piece)
-			for (const Candidate& one : candidates[piece]) {
-				if (!one.internal || one.faceCovered || covered(piece, one.facePlane) || isAmong(found, piece, one.plane))
-					continue;
-				const auto passed = [&](int plane) { return covered(1 - piece, plane); };
-				if (!(chordBelow(bounding, piece, one.faceNumber, normals, passed) < slidingDepth(pair, piece, one.face)))
-					continue;
-				if (found.count[piece] == polytope::BoundingPlanes::most) continue;
-				found.add(piece, one.plane, wayBeyond(pair, piece, one, solids[piece].others, solids[1 - piece]));
-				added = true;
-			}
-		return added;
+		/// Null for faces of neither body.
+		const Name* nameOf(const polytope::OverlapFace& face) const
+		{
+			return face.plane >= 0 && std::size_t(face.plane) < named_.size() ? &named_[std::size_t(face.plane)] : nullptr;
+		}
+
+		std::vector<polytope::Plane>       planes_;
+		std::vector<Name>                  named_;
+		std::vector<polytope::OverlapFace> faces_;
+	};
+
+	/// Whether the covered face goes on beyond its edges with faces that are not covered, along the most of them. A neighbour that rises there stands in
+	/// the way of the other body with a face that is covered itself below: of two such faces, back to back, both stay, and what presses on them
+	/// cancels but for what is higher. Of a neighbour that lies on the one which covers it, no face is there below.
+	bool isInLine(const OverlapOfSolids& overlap, int body, const SolidOfPieces& solid, const FaceOfPiece& face,
+	        const std::vector<Vector3r>& corners)
+	{
+		const Vector3r middle = middleOf(corners);
+		Real           along = 0, rising = 0;
+		overlap.forEdges(body, corners, [&](std::size_t beside, const Vector3r& one, const Vector3r& other) {
+			if (solid.faces[beside].isCovered) return;
+			const Real length = (other - one).norm();
+			along += length;
+			if (solid.risesAt(face, solid.faces[beside], (one + other) / 2, middle)) rising += length;
+		});
+		if (along > 0) return 2 * rising <= along;
+		// where the overlap reaches it with a corner alone, from another face: as if it went on to that one
+		bool rises = false;
+		overlap.forFaces([&](int of, std::size_t which, const std::vector<Vector3r>&) {
+			const FaceOfPiece& beside = solid.faces[of == body ? which : 0];
+			if (of != body || &beside == &face || beside.isCovered) return;
+			const Vector3r& up     = beside.plane.normal;
+			const Vector3r  along  = up - up.dot(face.plane.normal) * face.plane.normal;
+			const Real      square = along.squaredNorm();
+			if (!(square > Real(polytope::tolerance::parallel))) return;
+			const Vector3r edge = middle + (beside.plane.offset - up.dot(middle)) / square * along;
+			rises               = rises || solid.risesAt(face, beside, edge, middle);
+		});
+		return !rises;
+	}
+
+	/// Leaves out internal faces, until the overlap of the solids has none.
+	OverlapOfSolids findFaces(SolidOfPieces (&solids)[2], bool flat, const Real& reach)
+	{
+		OverlapOfSolids                          overlap(solids, flat, reach);
+		const std::vector<polytope::OverlapFace> ofPieces = overlap.faces();
+		for (int k = 0; k < polytope::tolerance::piecesOnTheWay; ++k) {
+			overlap.forFaces([&](int body, std::size_t which, const std::vector<Vector3r>& corners) {
+				FaceOfPiece& face = solids[body].faces[which];
+				if (!face.isEnd)
+					face.isCovered = solids[body].isPieced()
+					        && (solids[body].isThin(corners) || solids[body].covers(face, corners));
+			});
+			bool grown = false;
+			overlap.forFaces([&](int body, std::size_t which, const std::vector<Vector3r>& corners) {
+				SolidOfPieces& solid = solids[body];
+				FaceOfPiece&   face  = solid.faces[which];
+				if (face.isEnd || face.isInternal || solid.isThin(corners)) return;
+				face.isEnd = !face.isCovered || !isInLine(overlap, body, solid, face, corners);
+				if (face.isEnd) return;
+				solid.leaveOut(which, ofPieces);
+				grown = true;
+			});
+			if (!grown) break;
+			overlap = OverlapOfSolids(solids, flat, reach);
+		}
+		return overlap;
+	}
+
+	/// Not less than the radius of the largest ball in the overlap: three times the volume over the surface, which is that of a ball's circumscribed polyhedra.
+	Real thicknessOf(const OverlapOfSolids& overlap)
+	{
+		Real volume = 0, surface = 0;
+		for (const polytope::OverlapFace& face : overlap.faces()) {
+			const Vector3r& first = face.corners.front();
+			Vector3r        area  = Vector3r::Zero();
+			for (std::size_t k = 2; k < face.corners.size(); ++k)
+				area += (face.corners[k - 1] - first).cross(face.corners[k] - first) / 2;
+			volume += area.dot(first) / 3;
+			surface += area.norm();
+		}
+		return surface > 0 ? Real(3 * volume / surface) : Real(0);
+	}
+
+	/// Whether the overlap has grown over pieces that make no solid, as those about a corner that points inwards, which another body meets along an edge
+	/// alone: from the edge into the other body, where they are not.
+	bool hasGrownOut(const OverlapOfSolids& grown, const Real& thicknessOfPieces, const SolidOfPieces (&solids)[2])
+	{
+		if (!(thicknessOf(grown) > polytope::tolerance::grownOut * thicknessOfPieces)) return false;
+		Vector3r sum   = Vector3r::Zero();
+		Real     count = 0;
+		grown.forCorners([&](const Vector3r& corner) {
+			sum += corner;
+			count += 1;
+		});
+		return std::any_of(
+		        solids, solids + 2, [&](const SolidOfPieces& solid) { return solid.isOpen() && !solid.holds(sum / count); });
+	}
+
+	/// How near each end comes to the overlap, and which bound it. Returns the overlap's extent.
+	Real measureEnds(const OverlapOfSolids& overlap, SolidOfPieces (&solids)[2])
+	{
+		Real extent = 0;
+		overlap.forCorners([&](const Vector3r& corner) {
+			extent = math::max(extent, corner.norm());
+			for (SolidOfPieces& solid : solids)
+				for (FaceOfPiece& face : solid.faces)
+					if (face.own < 0 && !face.isInternal)
+						face.apart = math::min(face.apart, Real(face.plane.offset - face.plane.normal.dot(corner)));
+		});
+		overlap.forFaces(
+		        [&](int body, std::size_t which, const std::vector<Vector3r>&) { solids[body].faces[which].bounds = true; });
+		return extent;
+	}
+
+	/// The plane in the body's axes, from its centre.
+	polytope::Plane inBody(const polytope::Plane& plane, const SolidOfPieces& solid)
+	{
+		return { solid.rotation.transpose() * plane.normal, plane.offset - plane.normal.dot(solid.centre) };
+	}
+
+	/// The solid's internal faces, and its ends no farther from the overlap than that: those that bound it first.
+	void addPlanes(int body, const SolidOfPieces& solid, const Real& farthest, polytope::InternalPlanes& planes)
+	{
+		std::vector<const FaceOfPiece*> ends;
+		for (const FaceOfPiece& face : solid.faces) {
+			if (face.own >= 0 && face.isInternal && planes.count[body] < polytope::InternalPlanes::most)
+				planes.add(body, face.own);
+			if (face.own < 0 && !face.isInternal && (face.bounds || face.apart <= farthest)) ends.push_back(&face);
+		}
+		if (planes.count[body] == 0) return;
+		std::stable_sort(ends.begin(), ends.end(), [](const FaceOfPiece* one, const FaceOfPiece* other) {
+			return one->bounds != other->bounds ? one->bounds : one->apart < other->apart;
+		});
+		for (const FaceOfPiece* face : ends) {
+			const polytope::Plane end = inBody(face->plane, solid);
+			const auto            same
+			        = [&](const polytope::Plane& known) { return known.normal == end.normal && known.offset == end.offset; };
+			const polytope::Plane* const first = planes.end[body];
+			if (planes.ends[body] == polytope::InternalPlanes::mostEnds) return;
+			if (std::none_of(first, first + planes.ends[body], same)) planes.addEnd(body, end);
+		}
+	}
+
+	/// Whether planes known before are those of this solid as far as they are near the overlap.
+	bool agree(int body, const SolidOfPieces& solid, const OverlapOfSolids& overlap, const Real& extent,
+	        const polytope::InternalPlanes& known, const polytope::InternalPlanes& found)
+	{
+		const int* const first = known.plane[body];
+		if (known.count[body] != found.count[body] || !std::equal(first, first + known.count[body], found.plane[body]))
+			return false;
+		if (known.count[body] == 0) return true;
+		if (!(solid.centre.norm() + extent <= known.radius[body])) return false;
+		const Real near = Real(polytope::tolerance::endsNear) * extent, room = Real(polytope::tolerance::endOfSupport) * extent;
+		const auto same = [&](const polytope::Plane& one, const polytope::Plane& other) {
+			return math::abs(one.offset - other.offset) <= room && (one.normal - other.normal).norm() * solid.reach() <= room;
+		};
+		std::vector<bool> isThere(std::size_t(known.ends[body]), false);
+		for (const FaceOfPiece& face : solid.faces) {
+			if (face.own >= 0 || face.isInternal) continue;
+			const polytope::Plane end     = inBody(face.plane, solid);
+			bool                  isKnown = false;
+			for (int k = 0; k < known.ends[body]; ++k)
+				if (same(known.end[body][k], end)) isKnown = isThere[std::size_t(k)] = true;
+			if (!isKnown && (face.bounds || face.apart <= near)) return false;
+		}
+		// of a piece that is not found any more, or with a face that is internal now: far from the overlap it does not matter
+		for (int k = 0; k < known.ends[body]; ++k) {
+			if (isThere[std::size_t(k)]) continue;
+			const Vector3r normal = solid.rotation * known.end[body][k].normal;
+			Real           apart  = noEnd;
+			overlap.forCorners([&](const Vector3r& corner) {
+				apart = math::min(apart, Real(known.end[body][k].offset - normal.dot(corner - solid.centre)));
+			});
+			if (!(apart > near)) return false;
+		}
+		return true;
 	}
 
 } // namespace
 
 bool mayHaveInternalFaces(const Body& body1, const Body& body2) { return (isPiece(body1) || isPiece(body2)) && !inOneClump(body1, body2); }
 
-InternalFaces::InternalFaces(const TouchingPair& pair, const polytope::PlacedPair& placed, polytope::ContactSettings settings,
-        polytope::PairMemory memory, polytope::ContactWorkspace& workspace)
+bool findInternalFaces(const TouchingPair& pair, polytope::InternalPlanes& known)
 {
-	polytope::BoundingPlanes& bounding = *settings.bounding;
-	if (!addInternalPlanes(pair, bounding, planes) || !isPiece(bodyOf(pair, 0)) || !isPiece(bodyOf(pair, 1))) return;
-	queried                   = true;
-	settings.internal         = &planes;
-	settings.boundingOfSolids = true;
-	settings.linear           = nullptr;
-	settings.outline = settings.section = settings.energy = false;
-	polytope::ContactResult result;
-	do {
-		polytope::contactQuery(placed, settings, memory, workspace, result);
-		moveSlacks(bounding, pair);
-	} while (result.inContact && addInternalPlanes(pair, bounding, planes));
+	SolidOfPieces solids[] = { { pair, 0 }, { pair, 1 } };
+	if (!solids[0].isPieced() && !solids[1].isPieced()) {
+		const bool some = !known.none();
+		known           = {};
+		return some;
+	}
+	const bool               flat      = pair.convex[0]->dimension() == 2;
+	const Real               reach     = math::min(solids[0].reach(), solids[1].reach());
+	const Real               thickness = thicknessOf({ solids, flat, reach });
+	const OverlapOfSolids    overlap   = findFaces(solids, flat, reach);
+	const Real               extent    = measureEnds(overlap, solids);
+	const bool               grownOut  = hasGrownOut(overlap, thickness, solids);
+	polytope::InternalPlanes found;
+	for (int body = 0; body < 2 && !grownOut; ++body) {
+		if (!solids[body].isOpen()) continue;
+		addPlanes(body, solids[body], Real(polytope::tolerance::endsKnown) * extent, found);
+		found.radius[body] = (1 + Real(polytope::tolerance::endsKnown)) * (solids[body].centre.norm() + extent);
+	}
+	if (agree(0, solids[0], overlap, extent, known, found) && agree(1, solids[1], overlap, extent, known, found)) return false;
+	known = found;
+	return true;
 }
 
 } // namespace yade

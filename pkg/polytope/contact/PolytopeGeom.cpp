@@ -55,37 +55,33 @@ boost::python::list PolytopeGeom::outlineCorners() const
 polytope::InternalPlanes PolytopeGeom::internalPlanes() const
 {
 	polytope::InternalPlanes planes;
-	if (!internalFaces.get()) return planes;
-	const std::vector<int>&  codes = *internalFaces.get();
-	const std::vector<Real>& ends  = *internalEnds.get();
-	for (std::size_t k = 0; k < codes.size(); ++k)
-		planes.add(polytope::bodyOfCode(codes[k]), polytope::planeOfCode(codes[k]), ends[k]);
+	if (!internalFaces.get() || !internalEnds.get() || internalEnds.get()->size() % 5 != 2) return planes;
+	for (int code : *internalFaces.get())
+		planes.add(polytope::bodyOfCode(code), polytope::planeOfCode(code));
+	const std::vector<Real>& numbers = *internalEnds.get();
+	for (int body = 0; body < 2; ++body)
+		planes.radius[body] = numbers[std::size_t(body)];
+	for (std::size_t k = 2; k < numbers.size(); k += 5)
+		planes.addEnd(numbers[k] > 0, { Vector3r(numbers[k + 1], numbers[k + 2], numbers[k + 3]), numbers[k + 4] });
 	return planes;
 }
 
-bool PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
+void PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
 {
-	std::vector<int>  codes;
-	std::vector<Real> ends;
-	for (int body = 0; body < 2; ++body)
-		for (int k = 0; k < planes.count[body]; ++k) {
-			codes.push_back(polytope::planeCode(body, planes.plane[body][k]));
-			ends.push_back(planes.beyond[body][k]);
-		}
-	// where a support ends obliquely it ends elsewhere for each place of the contact point
-	const Real        room       = Real(polytope::tolerance::endOfSupport) * math::min(refR1, refR2);
-	const auto        same       = [&](Real a, Real b) { return a == b || math::abs(a - b) <= room; };
-	const auto* const knownCodes = internalFaces.get();
-	const auto* const knownEnds  = internalEnds.get();
-	if (knownCodes ? codes == *knownCodes && std::equal(ends.begin(), ends.end(), knownEnds->begin(), same) : codes.empty())
-		return false;
 	internalFaces.clear();
 	internalEnds.clear();
-	if (!codes.empty()) {
-		internalFaces.make() = codes;
-		internalEnds.make()  = ends;
+	if (planes.none()) return;
+	std::vector<int>&  codes   = internalFaces.make();
+	std::vector<Real>& numbers = internalEnds.make();
+	numbers                    = { planes.radius[0], planes.radius[1] };
+	for (int body = 0; body < 2; ++body) {
+		for (int k = 0; k < planes.count[body]; ++k)
+			codes.push_back(polytope::planeCode(body, planes.plane[body][k]));
+		for (int k = 0; k < planes.ends[body]; ++k) {
+			const polytope::Plane& end = planes.end[body][k];
+			numbers.insert(numbers.end(), { Real(body), end.normal[0], end.normal[1], end.normal[2], end.offset });
+		}
 	}
-	return true;
 }
 
 } // namespace yade

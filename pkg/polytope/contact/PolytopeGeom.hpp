@@ -73,7 +73,7 @@ public:
 	/// Codes of planes (src/program/PlaneCode.hpp): those of a basis, and of others.
 	using BasisCodes = std::array<std::uint16_t, 4>;
 	using PlaneCodes = Seldom<std::vector<int>>;
-	/// Four numbers for each plane.
+	/// The radii about both bodies, and five numbers for each plane: its body, normal and offset.
 	using PlaneEnds = Seldom<std::vector<Real>>;
 	using Closure   = Seldom<ClosureOfJoint>;
 	using Linear    = Seldom<LinearOfContact>;
@@ -87,8 +87,7 @@ public:
 	void remember(const polytope::PairMemory& memory, bool sameSurface = false);
 	/// Planes that neighbours cover (InternalFaces.hpp), as internalFaces has them.
 	polytope::InternalPlanes internalPlanes() const;
-	/// Whether they differ from those known.
-	bool setInternalPlanes(const polytope::InternalPlanes& planes);
+	void                     setInternalPlanes(const polytope::InternalPlanes& planes);
 	/// Corners of the outline in the world.
 	std::vector<Vector3r> cornersOfOutline() const;
 	boost::python::list   outlineCorners() const;
@@ -168,7 +167,7 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		        "by their planes"))
 		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + "
 		        "body"))
-		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "For each how far the support goes on beyond it [m]"))
+		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "Planes that other pieces of a support have near (src/contact/ContactTypes.hpp)"))
 		((Linear, linear, , (Attr::readonly | Attr::hidden), "The contact near the pose in which it was last computed in full"))
 		((StoredOutline, outline, , (Attr::readonly | Attr::hidden), "Outline of the contact area, for rock joints between polyhedra"))
 		((Closure, closure, , (Attr::readonly | Attr::hidden), "Normal law of its rock joint; none: a linear spring"))

@@ -124,6 +124,19 @@ namespace {
 		return apart.norm() > Real(polytope::tolerance::putElsewhere) * size;
 	}
 
+	/// Whether a plane of one of several pieces has come to bound the overlap, which may be an internal face or an end of the pieces.
+	bool hasMetMore(const Interaction& c, Scene& scene, const polytope::KeptVertices& now, const polytope::KeptVertices& last)
+	{
+		return (now.hasOtherPlanesThan(last, 0) && isPiece(*Body::byId(c.getId1(), &scene)))
+		        || (now.hasOtherPlanesThan(last, 1) && isPiece(*Body::byId(c.getId2(), &scene)));
+	}
+
+	/// Whether it may have where it is not known what bounds the overlap: until the next search the bodies move as far as matters.
+	bool mayMeetMore(const MotionInStep& motion, const Real& ball)
+	{
+		return motion.translation.norm() * polytope::tolerance::internalFacesEvery > Real(polytope::tolerance::flushOfDepth) * ball;
+	}
+
 	/// What a contact's geometry has elsewhere in memory is needed soon.
 	void fetchParts(const Interaction& contact)
 	{
@@ -200,33 +213,38 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	if (!search && followed.take(result)) return write(result, frame1.origin, state1, state2, shift2, force, c);
 	polytope::ContactSettings settings    = this->settings(options, geom, wasReal, force);
 	const bool                afterSearch = search && followed.isKnown(); // the search needs a full query, the contact may not
-	if (!afterSearch) settings.linear = followed.begin(turn, motionAt(geom, state1, state2, shift2, *scene, *c));
+	const MotionInStep        motion      = motionAt(geom, state1, state2, shift2, *scene, *c);
+	if (!afterSearch) settings.linear = followed.begin(turn, motion);
 
 	polytope::PairMemory memory = geom.memory();
 	if (geom.internalFaces.get() && !fit(*geom.internalFaces.get(), convex1, convex2)) geom.setInternalPlanes({});
-	polytope::BoundingPlanes bounding;
-	polytope::InternalPlanes internal = geom.internalPlanes();
-	if (surface) {
-		if (search || (asPieces && wasPutElsewhere(memory, pair))) settings.bounding = &bounding;
-		settings.internal = internal.none() ? nullptr : &internal;
-	}
-	polytope::contactQuery(pair, settings, memory, workspace, result);
-	bool sameSurface = result.surfaceKept;
-	if (result.inContact && settings.bounding) {
-		const TouchingPair  touching { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
-			 { frame1.rotation, rotation2 }, frame1.origin + bounding.point, -result.infeasibility };
-		const InternalFaces found(touching, pair, settings, memory, workspace);
-		const bool          changed = geom.setInternalPlanes(found.planes);
-		geom.internalKnown          = true;
-		settings.bounding           = nullptr;
-		if (polytope::ContactResult near; !changed && afterSearch && followed.take(near))
-			return write(near, frame1.origin, state1, state2, shift2, force, c);
-		if (changed || found.queried) {
-			internal          = geom.internalPlanes();
-			settings.internal = internal.none() ? nullptr : &internal;
-			polytope::contactQuery(pair, settings, memory, workspace, result);
+	polytope::InternalPlanes internal  = geom.internalPlanes();
+	const bool               elsewhere = asPieces && wasPutElsewhere(memory, pair);
+	const auto               ask       = [&] {
+                settings.internal = internal.none() ? nullptr : &internal;
+                polytope::contactQuery(pair, settings, memory, workspace, result);
+	};
+	Vector3r inside;
+	if (asPieces) settings.inside = &inside;
+	const polytope::KeptVertices last = memory.surface;
+	ask();
+	bool       sameSurface = result.surfaceKept;
+	const auto more        = [&] {
+                return memory.surface.vertices > 0 ? hasMetMore(*c, *scene, memory.surface, last)
+		                                          : mayMeetMore(motion, -result.infeasibility);
+	};
+	if (asPieces && result.inContact && (search || elsewhere || more())) {
+		const TouchingPair touching { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
+			{ frame1.rotation, rotation2 }, frame1.origin + inside, -result.infeasibility, nearer - centre2 };
+		const bool         changed = findInternalFaces(touching, internal);
+		geom.internalKnown         = true;
+		if (changed) {
+			geom.setInternalPlanes(internal);
+			memory.surface.vertices = 0;
+			ask();
 			sameSurface = false;
-		}
+		} else if (polytope::ContactResult near; afterSearch && followed.take(near))
+			return write(near, frame1.origin, state1, state2, shift2, force, c);
 	}
 	if (afterSearch) geom.linear.clear();
 	if (result.inContact) giveShare(math::max(result.share, Real(polytope::tolerance::leastShareOfSupport)), geom, *c, result);

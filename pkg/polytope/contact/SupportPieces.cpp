@@ -37,10 +37,14 @@ const polytope::Plane* faceAt(const Solid& solid, const Vector3r& outward, const
 	return nullptr;
 }
 
-Real flushStep(const TouchingPair& pair)
+Real roundingOf(const TouchingPair& pair)
 {
-	const Real larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
-	return math::max(Real(polytope::tolerance::flushOfDepth) * pair.ball, Real(polytope::tolerance::flush) * larger);
+	Real larger = 0;
+	for (const polytope::ConvexShape* const convex : pair.convex)
+		if (math::isfinite(convex->boundingRadius())) larger = math::max(larger, convex->boundingRadius());
+	return Real(polytope::tolerance::flush) * larger;
 }
+
+Real flushStep(const TouchingPair& pair) { return math::max(Real(polytope::tolerance::flushOfDepth) * pair.ball, roundingOf(pair)); }
 
 } // namespace yade

@@ -27,8 +27,9 @@ struct TouchingPair {
 	const polytope::ConvexShape* convex[2];
 	Vector3r                     centre[2];
 	Matrix3r                     rotation[2];
-	Vector3r                     point; ///< in the overlap
-	Real                         ball;  ///< radius of the largest ball in the overlap
+	Vector3r                     point;                     ///< in the overlap
+	Real                         ball;                      ///< radius of the largest ball in the overlap
+	Vector3r                     nearer = Vector3r::Zero(); ///< by which body 2, and what moves as one with it, counts as moved
 };
 
 inline const Body& bodyOf(const TouchingPair& pair, int which)
@@ -50,6 +51,9 @@ bool contains(const Planes& planes, const Vector3r& point, const Real& room = 0)
 /// The solid's face along a normal that passes within `step` of a point, along that face's normal; null: it has none. Where the point is on a face of
 /// another piece, that face goes on here.
 const polytope::Plane* faceAt(const Solid& solid, const Vector3r& outward, const Vector3r& point, Real step);
+
+/// What rounding of poses leaves between pieces that lie flush; a wall has no size.
+Real roundingOf(const TouchingPair& pair);
 
 /// How high a step between two faces is that count as one.
 Real flushStep(const TouchingPair& pair);

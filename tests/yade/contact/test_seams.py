@@ -257,86 +257,81 @@ regular = {
 }
 
 
-def halfOfRidge(fall, seam):
-	"""Area, and radius of the inscribed circle, of what lies between a slope, the level one unit below its upper end, and the plane between
-	it and the other slope, *seam* to the side of that end at the level [1]."""
-	width = 1 / fall - seam
-	area = width / 2
-	return area, 2 * area / (width + math.hypot(1, 1 / fall) + math.hypot(1, seam))
-
-
-def sunkOnRidge(halves, perArea, length=1.0, force=2600 * 9.81 / stiffness):
-	"""How far a block of this length sinks onto a ridge of pieces: each has a surface of its own, in which the pressure falls to zero
-	towards the seam, too."""
+def sunkOnRidge(area, radius, perArea, length=1.0, force=2600 * 9.81 / stiffness):
+	"""How far a block of this length sinks onto a ridge. *area*, *radius*: of the ridge's section one unit below its edge, and of the circle in it [1]."""
 
 	def grows(h):
-		"""Force over the stiffness. V = A (L r/3 − r²/6), W = A (L r²/12 − r³/15) of a piece with A = α h², r = ϱ h."""
-		total = 0
-		for area, radius in halves:
-			v, vGrows = (
-				area * (length * radius / 3 * h**3 - radius**2 / 6 * h**4),
-				area * (length * radius * h**2 - 2 * radius**2 / 3 * h**3),
-			)
-			w, wGrows = (
-				area * (length * radius**2 / 12 * h**4 - radius**3 / 15 * h**5),
-				area * (length * radius**2 / 3 * h**3 - radius**3 / 3 * h**4),
-			)
-			total += 2 * vGrows if perArea else 36 * w / v * (wGrows * v - w * vGrows) / v**2
-		return total - force
+		"""Force over the stiffness. V = A (L r/3 − r²/6), W = A (L r²/12 − r³/15) with A = α h², r = ϱ h."""
+		v, vGrows = (
+			area * (length * radius / 3 * h**3 - radius**2 / 6 * h**4),
+			area * (length * radius * h**2 - 2 * radius**2 / 3 * h**3),
+		)
+		w, wGrows = (
+			area * (length * radius**2 / 12 * h**4 - radius**3 / 15 * h**5),
+			area * (length * radius**2 / 3 * h**3 - radius**3 / 3 * h**4),
+		)
+		return (2 * vGrows if perArea else 36 * w / v * (wGrows * v - w * vGrows) / v**2) - force
 
 	return brentq(grows, 1e-9, 0.2)
 
 
+def onRidge():
+	return polytope.cuboid((0, 0.1, 0.5), (0.5, 0.5, 0.5))
+
+
 @pytest.mark.parametrize('rule', rules.args[1])
-@pytest.mark.parametrize('fall', [0.5, 1, 1.5])
-def testARidgeOfPiecesHasASurfaceOnEach(fall, rule):
-	"""Ridges of facets, of two solids, and of four, two of which lie flush, are all the same: softer per area and stiffer per contact than
-	one solid."""
+@pytest.mark.parametrize('left, right', [(0.5, 0.5), (1, 1), (1.5, 1.5), (2, 2), (0.5, 1)])
+def testARidgeOfPiecesIsThatOfOneSolid(left, right, rule):
+	"""Of facets, of one solid, of two, and of four, two of which lie flush on each side."""
 	found = []
-	for ridge in (lambda: bent(fall, fall), lambda: slopes(fall, fall, 2), lambda: slopes(fall, fall, 4)):
-		depth, contacts = restingDepth(ridge, lambda: polytope.cuboid((0, 0.1, 0.5), (0.5, 0.5, 0.5)), rule, steps=8000)
+	for ridge in [lambda: bent(left, right), *(lambda number=number: slopes(left, right, number) for number in (1, 2, 4))]:
+		depth, contacts = restingDepth(ridge, onRidge, rule, steps=8000)
 		found.append(depth)
-		assert sum(contact.geom.share for contact in contacts) == pytest.approx(2, rel=1e-3)
-	assert found == pytest.approx([sunkOnRidge([halfOfRidge(fall, 0)] * 2, rule == 'perArea')] * 3, rel=1e-3)
+		assert sum(contact.geom.share for contact in contacts) == pytest.approx(1, rel=1e-6)
+	assert found == pytest.approx([found[0]] * 4, rel=1e-5)
+	width = 1 / left + 1 / right
+	radius = width / (width + math.hypot(1, 1 / left) + math.hypot(1, 1 / right))
+	assert found[0] == pytest.approx(sunkOnRidge(width / 2, radius, rule == 'perArea'), rel=1e-3)
 
 
-@pytest.mark.parametrize('left, right', [(0.2, 1), (2, 2)])
-def testALopsidedRidgeOfFacetsIsPartedInTheMiddle(left, right):
-	"""The plane that parts it has the same angle to both slopes."""
-	down = [
-		sum(parts)
-		for parts in zip(*((x / math.hypot(1, fall), -fall / math.hypot(1, fall)) for x, fall in ((-1, left), (1, right))), strict=True)
-	]
-	seam = -down[0] / down[1]
-	depth, _ = restingDepth(lambda: bent(left, right), lambda: polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)), 'perArea', steps=8000)
-	assert depth == pytest.approx(sunkOnRidge([halfOfRidge(left, -seam), halfOfRidge(right, seam)], True), rel=1e-3)
+def wedges(base):
+	return [polytope.fromVertices([(0, 0, 0), (0, 0, -1), base[k], base[(k + 1) % len(base)]], fixed=True) for k in range(len(base))]
 
 
 @pytest.mark.parametrize('rule', rules.args[1])
-@pytest.mark.parametrize('sides', list(regular))
-@pytest.mark.parametrize(
-	'pieces',
-	[
-		tip,
-		lambda base: [
-			polytope.fromVertices([(0, 0, 0), (0, 0, -1), base[k], base[(k + 1) % len(base)]], fixed=True) for k in range(len(base))
-		],
-	],
-	ids=['facets', 'wedges'],
-)
-def testATipOfPiecesHasASurfaceOnEach(pieces, sides, rule):
-	"""Tetrahedra with an inscribed ball of radius r, volume Ω: V = Ω r/4, W = Ω r²/20, Ω = ω h³, r = ϱ h."""
+@pytest.mark.parametrize('sides', [3, 4, 8])
+@pytest.mark.parametrize('pieces', [tip, wedges], ids=['facets', 'wedges'])
+def testATipOfPiecesIsThatOfOneSolid(pieces, sides, rule):
+	"""A pyramid with an inscribed ball of radius r, volume Ω: V = Ω r/4, W = Ω r²/20, Ω = ω h³, r = ϱ h."""
 	base = regular[sides]
 	depth, contacts = restingDepth(
 		lambda: pieces(base), lambda: polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)), rule, friction=0, steps=12000
 	)
 	assert len(contacts) == sides
-	corners = [(0, 0, 0), (0, 0, -1), *base[:2]]
-	one = ConvexHull(corners)
+	assert sum(contact.geom.share for contact in contacts) == pytest.approx(1, rel=1e-6)
+	one = ConvexHull([(0, 0, 0), *base])
 	radius = 3 * one.volume / one.area
-	force = 2600 * 9.81 / stiffness / sides
+	force = 2600 * 9.81 / stiffness
 	expected = (force / (2 * one.volume * radius)) ** (1 / 3) if rule == 'perArea' else force / (1.2 * radius) ** 2
 	assert depth == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize('pieces', [tip, wedges], ids=['facets', 'wedges'])
+def testATipOfManyPieces(pieces):
+	"""Of 32: the force is that of one solid, and each piece has the same part of it."""
+	forces = []
+	for make in (lambda: [polytope.fromVertices([(0, 0, 0), *regular[32]], fixed=True)], lambda: pieces(regular[32])):
+		O.reset()
+		physics = joints('perArea', 0)
+		O.bodies.append(make())
+		O.bodies.append(polytope.cuboid((0, 0, 0.499), (0.5, 0.5, 0.5)))
+		O.engines = polytope.engines(gravity=(0, 0, 0), damping=0, physics=physics, timeStepper=False)
+		O.dt = 1e-9
+		O.step()
+		contacts = [contact for contact in O.interactions if contact.isReal]
+		forces.append(sum((contact.phys.normalForce for contact in contacts), Vector3.Zero).norm())
+	assert [contact.geom.share for contact in contacts] == pytest.approx([1 / 32] * 32, rel=0.01)
+	assert forces[1] == pytest.approx(forces[0], rel=2e-3)
 
 
 def slopes(left, right, number):
