@@ -224,12 +224,11 @@ namespace {
 	/// The overlap of two solids as far as their faces are known.
 	class OverlapOfSolids {
 	public:
-		OverlapOfSolids(SolidOfPieces (&solids)[2], bool flat, const Real& reach)
+		OverlapOfSolids(const SolidOfPieces (&solids)[2], bool flat, const Real& reach)
 		{
 			for (int body = 0; body < 2; ++body)
 				for (std::size_t k = 0; k < solids[body].faces.size(); ++k) {
-					FaceOfPiece& face = solids[body].faces[k];
-					face.bounds       = false;
+					const FaceOfPiece& face = solids[body].faces[k];
 					if (face.isInternal) continue;
 					planes_.push_back(face.plane);
 					named_.push_back({ body, k });
@@ -315,11 +314,10 @@ namespace {
 		return !rises;
 	}
 
-	/// Leaves out internal faces, until the overlap of the solids has none.
-	OverlapOfSolids findFaces(SolidOfPieces (&solids)[2], bool flat, const Real& reach)
+	/// Leaves out internal faces, from the overlap of the two pieces on, until that of the solids has none.
+	OverlapOfSolids findFaces(const OverlapOfSolids& ofPieces, SolidOfPieces (&solids)[2], bool flat, const Real& reach)
 	{
-		OverlapOfSolids                          overlap(solids, flat, reach);
-		const std::vector<polytope::OverlapFace> ofPieces = overlap.faces();
+		OverlapOfSolids overlap = ofPieces;
 		for (int k = 0; k < polytope::tolerance::piecesOnTheWay; ++k) {
 			overlap.forFaces([&](int body, std::size_t which, const std::vector<Vector3r>& corners) {
 				FaceOfPiece& face = solids[body].faces[which];
@@ -334,7 +332,7 @@ namespace {
 				if (face.isEnd || face.isInternal || solid.isThin(corners)) return;
 				face.isEnd = !face.isCovered || !isInLine(overlap, body, solid, face, corners);
 				if (face.isEnd) return;
-				solid.leaveOut(which, ofPieces);
+				solid.leaveOut(which, ofPieces.faces());
 				grown = true;
 			});
 			if (!grown) break;
@@ -465,12 +463,12 @@ bool findInternalFaces(const TouchingPair& pair, polytope::InternalPlanes& known
 		known           = {};
 		return some;
 	}
-	const bool               flat      = pair.convex[0]->dimension() == 2;
-	const Real               reach     = math::min(solids[0].reach(), solids[1].reach());
-	const Real               thickness = thicknessOf({ solids, flat, reach });
-	const OverlapOfSolids    overlap   = findFaces(solids, flat, reach);
-	const Real               extent    = measureEnds(overlap, solids);
-	const bool               grownOut  = hasGrownOut(overlap, thickness, solids);
+	const bool               flat  = pair.convex[0]->dimension() == 2;
+	const Real               reach = math::min(solids[0].reach(), solids[1].reach());
+	const OverlapOfSolids    ofPieces(solids, flat, reach);
+	const OverlapOfSolids    overlap  = findFaces(ofPieces, solids, flat, reach);
+	const Real               extent   = measureEnds(overlap, solids);
+	const bool               grownOut = hasGrownOut(overlap, thicknessOf(ofPieces), solids);
 	polytope::InternalPlanes found;
 	for (int body = 0; body < 2 && !grownOut; ++body) {
 		if (!solids[body].isOpen()) continue;
