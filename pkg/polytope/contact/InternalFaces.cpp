@@ -113,15 +113,32 @@ namespace {
 			const Real      square = along.squaredNorm();
 			if (!(square > Real(polytope::tolerance::parallel))) return false;
 			const Vector3r step = Real(polytope::tolerance::flushOfDepth) * (middle - edge);
-			return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
-				for (const double way : polytope::tolerance::closeBy) {
-					const Vector3r out
-					        = edge + math::max(Real(Real(way) * ball_), Real(2 * rounding_)) / square * along;
-					if (piece.holds(out + step, rounding_) && piece.holds(out - step, -rounding_))
-						return true; // by more than rounding
-				}
-				return false;
-			});
+			for (const double way : polytope::tolerance::closeBy) {
+				const Vector3r out = edge + math::max(Real(Real(way) * ball_), Real(2 * rounding_)) / square * along;
+				if (goesThrough(out + step, out - step)) return true;
+			}
+			return false;
+		}
+
+		/// Internal faces stay if a piece below them rises above the face `end` of another piece, by which the grown overlap has such a middle: at a corner that
+		/// points inwards. Returns whether there are some.
+		bool keepBelow(const FaceOfPiece& end, const Vector3r& middle)
+		{
+			bool some = false;
+			for (FaceOfPiece& face : faces) {
+				if (!face.isInternal) continue;
+				const Vector3r &n = face.plane.normal, &up = end.plane.normal;
+				const Vector3r  along  = n - n.dot(up) * up;
+				const Real      square = along.squaredNorm();
+				if (!(square > Real(polytope::tolerance::parallel))) continue;
+				const Vector3r edge = middle + (face.plane.offset - n.dot(middle)) / square * along;
+				const Real     far  = math::max(Real(Real(polytope::tolerance::flushOfDepth) * ball_), Real(2 * rounding_));
+				const Vector3r below = edge - far / square * along;
+				if (!goesThrough(below - far * up, below + far * up)) continue;
+				face.isInternal = false;
+				face.isEnd = some = true;
+			}
+			return some;
 		}
 
 		/// The overlap goes on beyond this face, within the faces of the other pieces that do not cut `overlap`, the one of the two pieces.
@@ -153,6 +170,14 @@ namespace {
 		static Vector3r movedBy(const TouchingPair& pair, int which)
 		{
 			return which == 1 ? pair.nearer : Vector3r(Vector3r::Zero());
+		}
+
+		/// Whether a piece has both points, the second one by more than rounding.
+		bool goesThrough(const Vector3r& one, const Vector3r& other) const
+		{
+			return (contains(own_, one, rounding_) && contains(own_, other, -rounding_))
+			        || std::any_of(pieces_.begin(), pieces_.end(),
+			                [&](const Piece& piece) { return piece.holds(one, rounding_) && piece.holds(other, -rounding_); });
 		}
 
 		bool holds(const Vector3r& point, bool orOwn) const
@@ -314,6 +339,27 @@ namespace {
 		return !rises;
 	}
 
+	/// Where the other body presses on a piece at a corner that points inwards, and is in a piece beyond the corner, too: the overlap with the latter has grown over
+	/// the face between them, and yet ends at the face of the former. That it presses on the face is seen from the overlap, which is thinnest there.
+	bool endsAtCorner(const OverlapOfSolids& overlap, int body, SolidOfPieces& solid)
+	{
+		const FaceOfPiece* thinnest = nullptr;
+		Vector3r           middle;
+		Real               least = noEnd;
+		overlap.forFaces([&](int of, std::size_t which, const std::vector<Vector3r>& corners) {
+			if (of != body || solid.faces[which].isCovered) return;
+			const polytope::Plane& plane = solid.faces[which].plane;
+			Real                   width = 0;
+			overlap.forCorners(
+			        [&](const Vector3r& corner) { width = math::max(width, Real(plane.offset - plane.normal.dot(corner))); });
+			if (width >= least) return;
+			least    = width;
+			thinnest = &solid.faces[which];
+			middle   = middleOf(corners);
+		});
+		return thinnest && thinnest->own < 0 && solid.keepBelow(*thinnest, middle);
+	}
+
 	/// Leaves out internal faces, from the overlap of the two pieces on, until that of the solids has none.
 	OverlapOfSolids findFaces(const OverlapOfSolids& ofPieces, SolidOfPieces (&solids)[2], bool flat, const Real& reach)
 	{
@@ -335,6 +381,8 @@ namespace {
 				solid.leaveOut(which, ofPieces.faces());
 				grown = true;
 			});
+			for (int body = 0; body < 2 && !grown; ++body)
+				grown = solids[body].isOpen() && endsAtCorner(overlap, body, solids[body]);
 			if (!grown) break;
 			overlap = OverlapOfSolids(solids, flat, reach);
 		}

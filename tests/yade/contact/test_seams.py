@@ -513,6 +513,30 @@ def testNoWallIsLeftOutBehindACornerThatPointsInwards(way):
 				assert all(geom.energyPerStiffness < 100 * geom.penetrationDepth**2 for geom in touching), (x, y, z)
 
 
+@pytest.mark.parametrize('model', ['perArea', 'perContact'])
+@pytest.mark.parametrize('way', [(-1, 0.3, -1), (-1, 0.2, -0.3), (-0.4, 0.1, -1)])
+def testATipThatSlidesOutOfAWallUnderTheFloorDoesTheWorkThatItsEnergyLoses(way, model):
+	"""Before it is beyond the wall's face, its overlap with the floor is all below the wall, and the floor's face there is one between two pieces."""
+	physics = joints(model, 0)
+	floor = polytope.cuboid((0, 0, -0.05), (0.9, 0.9, 0.05), fixed=True)
+	wall = polytope.cuboid((-0.05, 0, 0.8), (0.05, 0.9, 0.8), fixed=True)
+	tip = O.bodies.append([floor, wall, spike((0, 0, 0), way)])[-1]
+	O.engines = [one for one in polytope.engines(gravity=(0, 0, 0), damping=0, physics=physics) if not isinstance(one, PolytopeTimeStepper)]
+	O.dt = 1e-12
+	start, steps = O.bodies[tip].state.pos, 400
+	places = [start + Vector3(-2e-3 + 3e-3 * k / steps, 0, 5e-4 - 1.5e-3 * k / steps) for k in range(steps + 1)]
+	work, energies, forces = 0, [], []
+	for place in places:
+		O.bodies[tip].state.pos, O.bodies[tip].state.vel = place, (0, 0, 0)
+		O.step()
+		energies.append(polytope.mechanicalEnergy())
+		forces.append(O.forces.f(tip))
+	for one, other, force, another in zip(places, places[1:], forces, forces[1:], strict=False):
+		work += (other - one).dot(force + another) / 2
+	assert min(energies) < 0.2 * max(energies)
+	assert work == pytest.approx(energies[0] - energies[-1], abs=1e-3 * max(energies))
+
+
 def energyLeft(model, pieces, tilt, speed, x):
 	"""A cube of 1 m falls on a corner, without friction, damping and gravity. Returns the kinetic energy afterwards over that before, and
 	how deep the cube sank in [m]."""
