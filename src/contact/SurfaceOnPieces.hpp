@@ -89,14 +89,14 @@ private:
 	{
 		using std::sqrt;
 		for (int k = 0; k <= D; ++k) {
-			const R long_ = 1 / sqrt(R(D));
+			const R component = 1 / sqrt(R(D));
 			if constexpr (D == 3) {
-				planes_.normal[0][simplex_ + k] = k < 2 ? long_ : -long_;
-				planes_.normal[1][simplex_ + k] = k % 2 == 0 ? long_ : -long_;
-				planes_.normal[2][simplex_ + k] = k == 0 || k == 3 ? long_ : -long_;
+				planes_.normal[0][simplex_ + k] = k < 2 ? component : -component;
+				planes_.normal[1][simplex_ + k] = k % 2 == 0 ? component : -component;
+				planes_.normal[2][simplex_ + k] = k == 0 || k == 3 ? component : -component;
 			} else {
-				planes_.normal[0][simplex_ + k] = k == 0 ? R(-1) : k == 1 ? R(0) : long_;
-				planes_.normal[1][simplex_ + k] = k == 0 ? R(0) : k == 1 ? R(-1) : long_;
+				planes_.normal[0][simplex_ + k] = k == 0 ? R(-1) : k == 1 ? R(0) : component;
+				planes_.normal[1][simplex_ + k] = k == 0 ? R(0) : k == 1 ? R(-1) : component;
 			}
 			planes_.offset[simplex_ + k] = distance;
 		}

@@ -192,23 +192,27 @@ constexpr Real flush = 1e-9;
 /// overlap has its corners, neighbours must cover it this part of the way to its middle: of a flush face as deep.
 constexpr Real flushOfDepth = 0.05;
 
-/// × radius of the overlap's ball: how far outside of a face of a piece a neighbour that covers it is looked for. Close by, so that a point beside an oblique
-/// face is not above the neighbour; at a joint that is a little open; and beyond a gap that is as wide as the ball.
+/// × radius of the overlap's ball: how far outside of a face of a piece a neighbour that covers it is looked for. Close by, so that a point beside
+/// an oblique face is not above the neighbour; at a joint that is a little open; and beyond a gap that is as wide as the ball.
 constexpr Real closeBy[] = { 1e-3, 0.03, 2 };
 
-/// × extent of the overlap of two solids: planes of other pieces that are as near to it may bound it before the next search for internal faces, and are known; those up
-/// to the second number are known with them.
+/// × what rounding of poses leaves between two pieces: a point is looked at no nearer to a face than this, and a face of their overlap that is
+/// no wider than the second number is none.
+constexpr Real offFace = 2, thinFace = 4;
+
+/// × extent of the overlap of two solids: planes of other pieces that are as near to it may bound it before the next search for internal faces,
+/// and are known; those up to the second number are known with them.
 constexpr Real endsNear = 0.02, endsKnown = 0.2;
 
-/// × thickness of the overlap of two pieces: that of their solids is no thicker, unless the pieces meet in a sliver, where the middle of that of the solids must be in
-/// them.
+/// × thickness of the overlap of two pieces: that of their solids is no thicker, unless the pieces meet in a sliver, where the middle of that of
+/// the solids must be in them.
 constexpr Real grownOut = 4;
 
 /// Searches for internal faces in the overlap as it grows over the pieces, at the most: from one piece to the next.
 constexpr int piecesOnTheWay = 64;
 
-/// × extent of the overlap of two solids: distance of the simplex that its program begins with. No farther from the frame's origin, which is in the overlap, than
-/// twice the extent is any of its points.
+/// × extent of the overlap of two solids: distance of the simplex that its program begins with. No farther from the frame's origin, which is in
+/// the overlap, than twice the extent is any of its points.
 constexpr Real simplexAround = 2.5;
 
 /// × largest coordinate of two bodies: what rounding of their places and of their planes there leaves of an overlap where they lie flush.
@@ -223,8 +227,8 @@ constexpr Real parallel = 1e-4;
 /// Least part of a stiffness that one of several pieces has. Any small number will do: zero would mean no contact.
 constexpr Real leastShareOfSupport = 1e-9;
 
-/// × extent of the overlap of two solids: planes of their other pieces that were there before, and are no farther from these, are the same. They turn with their body, and so
-/// differ by rounding.
+/// × extent of the overlap of two solids: planes of their other pieces that were there before, and are no farther from these, are the same. They
+/// turn with their body, and so differ by rounding.
 constexpr Real endOfSupport = 1e-9;
 
 /// Steps between two searches for internal faces of a pair that touched before: between two of them, a body at
