@@ -143,6 +143,8 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		((std::int8_t, faceForceCode, 0, (Attr::readonly | Attr::hidden), "What the normal force depends on where the bodies tilt, as a "
 		        "number (FaceForce)"))
 		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
+		((Real, sizeAtSearch, 0, (Attr::readonly | Attr::hidden), "Radius of the overlap's ball times contactArea when they were last "
+		        "searched for [m³]"))
 		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Rule of the contact's physics: none that the geometry knows, a "
 		        "stiffness per area or one per contact (StiffnessRule)"))
 		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several "

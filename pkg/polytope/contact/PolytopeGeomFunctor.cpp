@@ -137,6 +137,9 @@ namespace {
 		return motion.translation.norm() * polytope::tolerance::internalFacesEvery > Real(polytope::tolerance::flushOfDepth) * ball;
 	}
 
+	/// What tells that the overlap with a piece has grown or shrunk: in an impact it does within a few steps, and reaches other pieces.
+	Real sizeOfOverlap(const polytope::ContactResult& result) { return -result.infeasibility * result.area; }
+
 	/// What a contact's geometry has elsewhere in memory is needed soon.
 	void fetchParts(const Interaction& contact)
 	{
@@ -230,6 +233,8 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	ask();
 	bool       sameSurface = result.surfaceKept;
 	const auto more        = [&] {
+                if (math::abs(sizeOfOverlap(result) - geom.sizeAtSearch) > Real(polytope::tolerance::overlapChanged) * geom.sizeAtSearch)
+                        return true;
                 return memory.surface.vertices > 0 ? hasMetMore(*c, *scene, memory.surface, last)
 		                                          : mayMeetMore(motion, -result.infeasibility);
 	};
@@ -243,7 +248,9 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 			memory.surface.vertices = 0;
 			ask();
 			sameSurface = false;
-		} else if (polytope::ContactResult near; afterSearch && followed.take(near))
+		}
+		geom.sizeAtSearch = sizeOfOverlap(result);
+		if (polytope::ContactResult near; !changed && afterSearch && followed.take(near))
 			return write(near, frame1.origin, state1, state2, shift2, force, c);
 	}
 	if (afterSearch) geom.linear.clear();
