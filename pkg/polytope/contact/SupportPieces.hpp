@@ -59,26 +59,31 @@ Real roundingOf(const TouchingPair& pair);
 Real flushStep(const TouchingPair& pair);
 
 /// Calls visit(neighbour, its centre from the contact point) for the other pieces of the rigid support that body `mover` of the pair, or what moves as
-/// one with it, may touch: those of a clump that moves, and the fixed ones in the lists of pairs of the mover and of the parts of its clump.
+/// one with it, may touch: the members of its clump, and of what is fixed what is in the lists of pairs of the mover and of the parts of its clump.
 template <class Visit> void forOtherPieces(const TouchingPair& pair, int mover, const Visit& visit)
 {
 	const Body &   body = bodyOf(pair, mover), &own = bodyOf(pair, 1 - mover);
 	const Vector3r centre = pair.centre[mover] - pair.point, ofOwn = pair.centre[1 - mover] - pair.point;
-	if (!isFixed(own, *pair.scene)) {
-		if (!own.isClumpMember()) return;
+	const Real     same = roundingOf(pair);
+
+	std::vector<std::pair<Body::id_t, Vector3r>> seen;
+	const auto                                   visitNew = [&](const Body& piece, const Vector3r& place) {
+                const bool isSeen = std::any_of(seen.begin(), seen.end(),
+		                                          [&](const auto& one) { return one.first == piece.id && (one.second - place).norm() <= same; });
+                if (isSeen) return;
+                seen.emplace_back(piece.id, place);
+                visit(piece, place);
+	};
+	if (own.isClumpMember())
 		forParts(moverOf(own, *pair.scene), *pair.scene, [&](const Body& piece) {
 			if (piece.id == own.id || !piece.shape || !piece.maskOk(body.groupMask)) return;
-			visit(piece, Vector3r(ofOwn + piece.state->pos - own.state->pos));
+			visitNew(piece, ofOwn + piece.state->pos - own.state->pos);
 		});
-		return;
-	}
-	std::vector<std::pair<Body::id_t, Vector3r>> seen;
+	if (!isFixed(own, *pair.scene)) return;
 	forParts(moverOf(body, *pair.scene), *pair.scene, [&](const Body& part) {
 		forPartners(part, own.id, *pair.scene, [&](const Body& piece, const Vector3r& shift) {
-			const std::pair<Body::id_t, Vector3r> image(piece.id, shift);
-			if (!rigidTogether(piece, own, *pair.scene) || std::find(seen.begin(), seen.end(), image) != seen.end()) return;
-			seen.push_back(image);
-			visit(piece, Vector3r(centre + piece.state->pos - body.state->pos + shift));
+			if (rigidTogether(piece, own, *pair.scene) && !inOneClump(piece, body))
+				visitNew(piece, centre + piece.state->pos - body.state->pos + shift);
 		});
 	});
 }

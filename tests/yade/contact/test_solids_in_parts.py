@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cubes in parts, cut straight and obliquely, on floors in pieces: the contacts have together force, moment and energy of the one of both solids."""
 
+import itertools
 import math
 import random
 
@@ -182,3 +183,25 @@ def testCubesInPartsKeepTheirEnergyInCollisions(cube, rule, room):
 	for seed in range(3):
 		moving, before, stored = collision(rule, cube, random.Random(seed))
 		assert abs(moving - before) < room * stored
+
+
+@pytest.mark.parametrize('floor', [1, 2, 4])
+def testAClumpThatIsHeldHasTheContactOfOneThatIsFree(floor):
+	"""With all its degrees of freedom blocked, as a platen that a script drives, it counts as fixed: its own members are those of its solid all the same."""
+	forces = []
+	for blocked in ('', 'xyzXYZ'):
+		O.reset()
+		O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0, stiffnessPerArea=False))
+		width = 2 / floor
+		for i, j in itertools.product(range(floor), repeat=2):
+			O.bodies.append(polytope.cuboid((-1 + width * (i + 0.5), -1 + width * (j + 0.5), -0.5), (width / 2, width / 2, 0.5), fixed=True))
+		turn, centre = Quaternion((0, 0, 1), 0.1), Vector3(0.06, 0.05, 0.198)
+		corners = itertools.product((-0.1, 0.1), repeat=3)
+		number, members = polytope.clump([polytope.cuboid(centre + turn * Vector3(*at), (0.1, 0.1, 0.1), turn) for at in corners])
+		O.bodies[number].state.blockedDOFs = blocked
+		O.engines = polytope.engines(gravity=(0, 0, 0), timeStepper=False)
+		O.dt = 1e-12
+		O.step()
+		assert sum(contact.geom.share for contact in O.interactions if contact.isReal) == pytest.approx(1, rel=1e-6)
+		forces.append(sum(O.forces.f(member)[2] for member in members))
+	assert forces[1] == pytest.approx(forces[0], rel=1e-9)
