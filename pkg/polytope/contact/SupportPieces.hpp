@@ -11,7 +11,6 @@
 #include "host/PartsOfBodies.hpp"
 #include "shape/ShapeFamily.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -67,12 +66,12 @@ template <class Visit> void forOtherPieces(const TouchingPair& pair, int mover, 
 	const Real     same = roundingOf(pair);
 
 	std::vector<std::pair<Body::id_t, Vector3r>> seen;
-	const auto                                   visitNew = [&](const Body& piece, const Vector3r& place) {
-                const bool isSeen = std::any_of(seen.begin(), seen.end(),
-		                                          [&](const auto& one) { return one.first == piece.id && (one.second - place).norm() <= same; });
-                if (isSeen) return;
-                seen.emplace_back(piece.id, place);
-                visit(piece, place);
+
+	const auto visitNew = [&](const Body& piece, const Vector3r& place) {
+		for (const auto& one : seen)
+			if (one.first == piece.id && (one.second - place).norm() <= same) return;
+		seen.emplace_back(piece.id, place);
+		visit(piece, place);
 	};
 	if (own.isClumpMember())
 		forParts(moverOf(own, *pair.scene), *pair.scene, [&](const Body& piece) {
