@@ -232,8 +232,8 @@ constexpr Real leastShareOfSupport = 1e-9;
 constexpr Real endOfSupport = 1e-9;
 
 /// Change of the overlap with a piece, as the area times the radius of its ball, over what it was when internal faces were searched for, after
-/// which they are again: in every step of an impact, and of a face that sinks in, after a twentieth of its depth.
-/// With a fifth of this number collisions keep their energy as well, and heaps of clumps that fall take half as long again.
+/// which they are again: in every step of an impact, and of a face that sinks in, after a twentieth of its depth. A smaller number costs more
+/// searches where bodies move, and does nothing for the energy of collisions.
 constexpr Real overlapChanged = 0.05;
 
 /// Steps between two searches for internal faces of a pair that touched before: between two of them, a body at
