@@ -33,11 +33,9 @@ namespace {
 			if (other.body != covered.body || other.number == covered.number || rises) return;
 			const FaceOfPiece& beside = solid.faces[other.number];
 			if (beside.isCovered) return;
-			const Vector3r& up     = beside.plane.normal;
-			const Vector3r  along  = up - up.dot(face.plane.normal) * face.plane.normal;
-			const Real      square = along.squaredNorm();
-			if (!(square > Real(polytope::tolerance::parallel))) return;
-			const Vector3r edge = covered.middle + (beside.plane.offset - up.dot(covered.middle)) / square * along;
+			Vector3r way;
+			if (!wayOut(beside.plane, face.plane, way)) return;
+			const Vector3r edge = covered.middle + (beside.plane.offset - beside.plane.normal.dot(covered.middle)) * way;
 			rises               = solid.risesAt(face, beside, edge, covered.middle);
 		});
 		return !rises;

@@ -138,7 +138,7 @@ namespace {
 	}
 
 	/// What tells that the overlap with a piece has grown or shrunk: in an impact it does within a few steps, and reaches other pieces.
-	Real sizeOfOverlap(const polytope::ContactResult& result) { return -result.infeasibility * result.area; }
+	Real measureOfOverlap(const polytope::ContactResult& result) { return -result.infeasibility * result.area; }
 
 	/// What a contact's geometry has elsewhere in memory is needed soon.
 	void fetchParts(const Interaction& contact)
@@ -233,7 +233,7 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	ask();
 	bool       sameSurface = result.surfaceKept;
 	const auto more        = [&] {
-                if (math::abs(sizeOfOverlap(result) - geom.sizeAtSearch) > Real(polytope::tolerance::overlapChanged) * geom.sizeAtSearch)
+                if (math::abs(measureOfOverlap(result) - geom.sizeAtSearch) > Real(polytope::tolerance::overlapChanged) * geom.sizeAtSearch)
                         return true;
                 return memory.surface.vertices > 0 ? hasMetMore(*c, *scene, memory.surface, last)
 		                                          : mayMeetMore(motion, -result.infeasibility);
@@ -249,7 +249,7 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 			ask();
 			sameSurface = false;
 		}
-		geom.sizeAtSearch = sizeOfOverlap(result);
+		geom.sizeAtSearch = measureOfOverlap(result);
 		if (polytope::ContactResult near; !changed && afterSearch && followed.take(near))
 			return write(near, frame1.origin, state1, state2, shift2, force, c);
 	}

@@ -13,17 +13,16 @@ namespace {
 
 	const Real noEnd = std::numeric_limits<Real>::infinity();
 
-	/// From a face on, along another one that meets it: as far beyond the first as the length of it is. None where they are parallel.
-	bool alongFace(const Vector3r& outward, const Vector3r& other, Vector3r& along)
-	{
-		along             = outward - outward.dot(other) * other; // along·outward = |along|²
-		const Real square = along.squaredNorm();
-		if (!(square > Real(polytope::tolerance::parallel))) return false;
-		along /= square;
-		return true;
-	}
-
 } // namespace
+
+bool wayOut(const polytope::Plane& plane, const polytope::Plane& within, Vector3r& way)
+{
+	way               = plane.normal - plane.normal.dot(within.normal) * within.normal; // way·normal = |way|²
+	const Real square = way.squaredNorm();
+	if (!(square > Real(polytope::tolerance::parallel))) return false;
+	way /= square;
+	return true;
+}
 
 bool SolidOfPieces::Piece::holds(const Vector3r& point, const Real& room) const
 {
@@ -81,14 +80,11 @@ bool SolidOfPieces::covers(const FaceOfPiece& face, const std::vector<Vector3r>&
 bool SolidOfPieces::risesAt(const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Vector3r& middle) const
 {
 	Vector3r along;
-	if (!alongFace(face.plane.normal, beside.plane.normal, along)) return false;
+	if (!wayOut(face.plane, beside.plane, along)) return false;
 	const Vector3r step = Real(polytope::tolerance::flushOfDepth) * (middle - edge);
-	return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
-		for (const double way : polytope::tolerance::closeBy) {
-			const Vector3r out = edge + offFace(Real(way) * ball_) * along;
-			if (piece.holds(out + step, rounding_) && piece.holds(out - step, -rounding_)) return true; // by more than rounding
-		}
-		return false;
+	return std::any_of(std::begin(polytope::tolerance::closeBy), std::end(polytope::tolerance::closeBy), [&](const double& way) {
+		const Vector3r out = edge + offFace(Real(way) * ball_) * along;
+		return goesThrough(out + step, out - step, false);
 	});
 }
 
@@ -106,10 +102,10 @@ bool SolidOfPieces::keepBelow(const FaceOfPiece& end, const Vector3r& middle)
 	bool       some = false;
 	for (FaceOfPiece& face : faces) {
 		Vector3r along;
-		if (!face.isInternal || !alongFace(face.plane.normal, end.plane.normal, along)) continue;
+		if (!face.isInternal || !wayOut(face.plane, end.plane, along)) continue;
 		const Vector3r edge  = middle + (face.plane.offset - face.plane.normal.dot(middle)) * along;
 		const Vector3r below = edge - far * along, up = far * end.plane.normal;
-		if (!goesThrough(below - up, below + up)) continue;
+		if (!goesThrough(below - up, below + up, true)) continue;
 		face.isInternal = false;
 		face.isEnd = some = true;
 	}
@@ -131,9 +127,9 @@ bool SolidOfPieces::holds(const Vector3r& point, bool orOwn) const
 }
 
 /// Whether a piece has both points, the second one by more than rounding.
-bool SolidOfPieces::goesThrough(const Vector3r& one, const Vector3r& other) const
+bool SolidOfPieces::goesThrough(const Vector3r& one, const Vector3r& other, bool orOwn) const
 {
-	return (contains(own_, one, rounding_) && contains(own_, other, -rounding_))
+	return (orOwn && contains(own_, one, rounding_) && contains(own_, other, -rounding_))
 	        || std::any_of(pieces_.begin(), pieces_.end(),
 	                [&](const Piece& piece) { return piece.holds(one, rounding_) && piece.holds(other, -rounding_); });
 }

@@ -20,6 +20,9 @@ struct FaceOfPiece {
 	Real            apart      = std::numeric_limits<Real>::infinity(); ///< least slack in the overlap
 };
 
+/// The way out of a half-space along the plane `within`, until one is out of it by one; false: they are parallel.
+bool wayOut(const polytope::Plane& plane, const polytope::Plane& within, Vector3r& way);
+
 /// One of the two bodies of a contact with the pieces of its solid.
 class SolidOfPieces {
 public:
@@ -78,7 +81,7 @@ private:
 	void addPieces(const TouchingPair& pair, int which, const Vector3r& moved);
 	void addFacesOfOthers(const std::vector<Vector3r>& overlap);
 	bool holds(const Vector3r& point, bool orOwn) const;
-	bool goesThrough(const Vector3r& one, const Vector3r& other) const;
+	bool goesThrough(const Vector3r& one, const Vector3r& other, bool orOwn) const;
 	Real roomBeside(const FaceOfPiece& face, const Vector3r& middle) const;
 	bool isBeside(const FaceOfPiece& face, const Vector3r& point, const Real& near) const;
 	bool isSame(const polytope::Plane& one, const polytope::Plane& other) const;
