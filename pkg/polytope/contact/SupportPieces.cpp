@@ -3,6 +3,8 @@
 
 #include <src/numbers/Tolerances.hpp>
 
+#include <limits>
+
 namespace yade {
 
 int supportOf(const TouchingPair& pair)
@@ -46,5 +48,11 @@ Real roundingOf(const TouchingPair& pair)
 }
 
 Real flushStep(const TouchingPair& pair) { return math::max(Real(polytope::tolerance::flushOfDepth) * pair.ball, roundingOf(pair)); }
+
+Real imagesApart(const Scene& scene)
+{
+	if (!scene.isPeriodic) return std::numeric_limits<Real>::infinity();
+	return Real(polytope::tolerance::flush) * scene.cell->getSize().norm();
+}
 
 } // namespace yade

@@ -57,19 +57,22 @@ Real roundingOf(const TouchingPair& pair);
 /// How high a step between two faces is that count as one.
 Real flushStep(const TouchingPair& pair);
 
+/// Less than two images of a body are apart.
+Real imagesApart(const Scene& scene);
+
 /// Calls visit(neighbour, its centre from the contact point) for the other pieces of the rigid support that body `mover` of the pair, or what moves as
 /// one with it, may touch: the members of its clump, and of what is fixed what is in the lists of pairs of the mover and of the parts of its clump.
 template <class Visit> void forOtherPieces(const TouchingPair& pair, int mover, const Visit& visit)
 {
 	const Body &   body = bodyOf(pair, mover), &own = bodyOf(pair, 1 - mover);
 	const Vector3r centre = pair.centre[mover] - pair.point, ofOwn = pair.centre[1 - mover] - pair.point;
-	const Real     same = roundingOf(pair);
+	const Real     same = imagesApart(*pair.scene);
 
 	std::vector<std::pair<Body::id_t, Vector3r>> seen;
 
 	const auto visitNew = [&](const Body& piece, const Vector3r& place) {
 		for (const auto& one : seen)
-			if (one.first == piece.id && (one.second - place).norm() <= same) return;
+			if (one.first == piece.id && (one.second - place).norm() < same) return;
 		seen.emplace_back(piece.id, place);
 		visit(piece, place);
 	};
