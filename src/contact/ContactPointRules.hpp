@@ -4,7 +4,8 @@
 #include "centre/AnalyticCentre.hpp"
 #include "centre/IpoptCentre.hpp"
 #include "contact/MoveInside.hpp"
-#include "contact/OverlapVolume.hpp"
+#include "contact/OverlapPolygon.hpp"
+#include "contact/OverlapPolyhedron.hpp"
 #include "contact/WarmStart.hpp"
 #include "program/SimplexLp.hpp"
 

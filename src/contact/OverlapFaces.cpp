@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/OverlapFaces.hpp"
 
-#include "contact/OverlapVolume.hpp"
+#include "contact/OverlapPolyhedron.hpp"
 #include "contact/PlanesInRows.hpp"
 
 namespace polytope {

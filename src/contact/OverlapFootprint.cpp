@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/OverlapFootprint.hpp"
 
-#include "contact/OverlapVolume.hpp"
+#include "contact/OverlapPolygon.hpp"
+#include "contact/OverlapPolyhedron.hpp"
 #include "contact/PlanesInRows.hpp"
 #include "numbers/PlaneAxes.hpp"
 

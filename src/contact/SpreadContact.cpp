@@ -1,120 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/SpreadContact.hpp"
 
+#include "contact/CoreFeatures.hpp"
 #include "numbers/PlaneAxes.hpp"
-#include "shape/DistanceTolerances.hpp"
 #include "shape/Rings.hpp"
 #include "shear/ContactOutline.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace polytope {
 
 namespace {
-
-	/// How parallel two features are: 1 to 0. `slope`: sine of the angle between them. Returns its derivative by the square of the sine in `change`.
-	Real parallelism(const Real& slopeSquared, Real& change)
-	{
-		const Real most = Real(tolerance::parallelFeatures) * Real(tolerance::parallelFeatures), rest = 1 - slopeSquared / most;
-		change = 0;
-		if (!(rest > 0)) return 0;
-		change = -2 * rest / most;
-		return rest * rest;
-	}
-
-	/// A weight, and how it changes as its body turns while the normal stays.
-	struct Weight {
-		Real    value = 0;
-		Vector3 turn  = Vector3::Zero();
-	};
-
-	/// The face and the edge of a core that look most along a direction.
-	struct Features {
-		Weight                   face, edge;
-		std::vector<FaceCorners> faces; ///< the face, or its parts in several pieces; none: it has no bounds
-		Vector3                  faceNormal = Vector3::Zero(), onFace = Vector3::Zero();
-		std::array<Vector3, 2>   ends { { Vector3::Zero(), Vector3::Zero() } };
-
-		Features(const CoreInPlace& core, const Vector3& outward)
-		{
-			if (core.shape) {
-				takeFace(core, outward);
-				takeEdge(core, outward);
-			} else {
-				ends = { core.origin, core.origin + core.way };
-				weighEdge(outward);
-			}
-		}
-
-	private:
-		void takeFace(const CoreInPlace& core, const Vector3& outward)
-		{
-			const Polyhedron& hull   = core.shape->polyhedron();
-			const auto&       planes = core.shape->planes();
-			const Vector3     own    = core.rotation.transpose() * outward;
-			std::size_t       best   = 0;
-			Real              most   = -1;
-			for (std::size_t f = 0; f < hull.faces.size(); ++f) {
-				if (hull.planeOfFace[f] < 0) continue;
-				const Real cosine = planes.normals[hull.planeOfFace[f]].dot(own);
-				if (cosine > most) {
-					most = cosine;
-					best = f;
-				}
-			}
-			const bool halfSpace = hull.faces.empty();
-			const int  plane     = halfSpace ? 0 : hull.planeOfFace[best];
-			faceNormal           = core.rotation * planes.normals[plane];
-			onFace               = core.origin + planes.offsets[plane] * faceNormal;
-			if (core.pieces) faces = *core.pieces;
-			else if (!halfSpace) {
-				faces.emplace_back();
-				for (int v : hull.faces[best])
-					faces.back().push_back(core.origin + core.rotation * hull.vertices[v]);
-			}
-			const Real cosine = faceNormal.dot(outward);
-			if (!(cosine > 0)) return;
-			const Vector3 axis = faceNormal.cross(outward);
-			Real          change;
-			face.value = parallelism(axis.squaredNorm(), change);
-			face.turn  = -2 * change * cosine * axis; // the square of the sine is 1 − cosine²
-		}
-
-		void takeEdge(const CoreInPlace& core, const Vector3& outward)
-		{
-			const Polyhedron& hull    = core.shape->polyhedron();
-			const Vector3     own     = core.rotation.transpose() * outward;
-			Real              most    = -std::numeric_limits<Real>::infinity();
-			int               best[2] = { -1, -1 };
-			for (const auto& loop : hull.faces)
-				for (std::size_t k = 0; k < loop.size(); ++k) {
-					const int  one = loop[k], other = loop[(k + 1) % loop.size()];
-					const Real height = own.dot(hull.vertices[one] + hull.vertices[other]);
-					if (one > other || !(height > most)) continue; // each edge has two faces
-					most    = height;
-					best[0] = one;
-					best[1] = other;
-				}
-			if (best[0] < 0) return;
-			for (int k = 0; k < 2; ++k)
-				ends[k] = core.origin + core.rotation * hull.vertices[best[k]];
-			weighEdge(outward);
-		}
-
-		void weighEdge(const Vector3& outward)
-		{
-			const Vector3 way    = ends[1] - ends[0];
-			const Real    length = way.norm();
-			if (!(length > 0)) return;
-			const Vector3 along = way / length;
-			const Real    sine  = along.dot(outward);
-			Real          change;
-			edge.value = parallelism(sine * sine, change);
-			edge.turn  = 2 * change * sine * along.cross(outward);
-		}
-	};
 
 	/// Sums over a pair of features, h over δ.
 	struct SpreadSums {
@@ -201,7 +98,7 @@ namespace {
 		}
 
 	private:
-		Features       one_, other_;
+		CoreFeatures   one_, other_;
 		const Vector3 &normal_, &nearest_;
 		const Real     deepest_;
 		PlaneAxes      axes_;
@@ -222,7 +119,7 @@ namespace {
 		Vector2 across(const Vector3& place) const { return Vector2(axes_.u.dot(place - nearest_), axes_.v.dot(place - nearest_)); }
 		Real    height(const Vector3& place) const { return normal_.dot(place - nearest_); }
 		/// Height of a feature's face over a place of the plane.
-		Real height(const Features& features, const Vector2& at) const
+		Real height(const CoreFeatures& features, const Vector2& at) const
 		{
 			const Vector3 place = nearest_ + axes_.inSpace(at);
 			return features.faceNormal.dot(features.onFace - place) / features.faceNormal.dot(normal_);
@@ -256,7 +153,7 @@ namespace {
 		{
 			const Real weight = one_.face.value * other_.face.value;
 			if (!(weight > 0)) return;
-			const Features &bounded = one_.faces.empty() ? other_ : one_, &bounding = one_.faces.empty() ? one_ : other_;
+			const CoreFeatures &bounded = one_.faces.empty() ? other_ : one_, &bounding = one_.faces.empty() ? one_ : other_;
 			std::vector<std::vector<SpreadPlace>> rings;
 			std::vector<SpreadPlace>              buffer;
 			for (const FaceCorners& face : bounded.faces) {
@@ -300,7 +197,7 @@ namespace {
 		}
 
 		/// \param sense 1 where the edge is body 1's
-		void meetEdgeAndFace(const Features& edge, const Features& face, int sense)
+		void meetEdgeAndFace(const CoreFeatures& edge, const CoreFeatures& face, int sense)
 		{
 			const Real left = 1 - edge.face.value, weight = left * edge.edge.value * face.face.value;
 			if (!(weight > 0)) return;

@@ -146,7 +146,7 @@ constexpr int    ipoptIterations = 15;
 constexpr Real ipoptMove   = 1e-9;
 constexpr int  ipoptRounds = 20;
 
-/// Faces, and vertices of one face, that an overlap may have (OverlapVolume.hpp): buffers are this large squared. The overlap of two smooth
+/// Faces, and vertices of one face, that an overlap may have (OverlapPolyhedron.hpp): buffers are this large squared. The overlap of two smooth
 /// bodies of ten thousand faces has some hundred where they touch; one with more is taken as a contact at one point.
 constexpr int overlapFaces = 512;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/OverlapVolume.hpp"
 #include "PlaneRows.hpp"
+#include "contact/OverlapPolyhedron.hpp"
 #include "shape/MassProperties.hpp"
 
 #include <gtest/gtest.h>

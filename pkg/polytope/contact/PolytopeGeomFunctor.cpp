@@ -12,6 +12,7 @@
 #include "contact/FollowedContact.hpp"
 #include "contact/Ig2_Polytope_Polytope_PolytopeGeom.hpp"
 #include "contact/InternalFaces.hpp"
+#include "contact/SearchDue.hpp"
 #include "contact/StiffnessShare.hpp"
 #include "host/ExactClass.hpp"
 #include "host/PeriodOfPair.hpp"
@@ -115,31 +116,6 @@ bool PolytopeGeomFunctor::isApart(const polytope::PlacedPair& pair, polytope::Co
 
 namespace {
 
-	/// Whether a script has put one of the two bodies elsewhere since the last step: the last contact point is not where it was on both of them.
-	bool wasPutElsewhere(const polytope::PairMemory& memory, const polytope::PlacedPair& pair)
-	{
-		if (!memory.hasPoint) return false;
-		const Vector3r apart = *pair.rotation[0] * memory.point[0] - *pair.rotation[1] * memory.point[1] - *pair.centre2;
-		const Real     size  = math::min(pair.shape[0]->boundingRadius(), pair.shape[1]->boundingRadius());
-		return apart.norm() > Real(polytope::tolerance::putElsewhere) * size;
-	}
-
-	/// Whether a plane of one of several pieces has come to bound the overlap, which may be an internal face or an end of the pieces.
-	bool hasMetMore(const Interaction& c, Scene& scene, const polytope::KeptVertices& now, const polytope::KeptVertices& last)
-	{
-		return (now.hasOtherPlanesThan(last, 0) && isPiece(*Body::byId(c.getId1(), &scene)))
-		        || (now.hasOtherPlanesThan(last, 1) && isPiece(*Body::byId(c.getId2(), &scene)));
-	}
-
-	/// Whether it may have where it is not known what bounds the overlap: until the next search the bodies move as far as matters.
-	bool mayMeetMore(const MotionInStep& motion, const Real& ball)
-	{
-		return motion.translation.norm() * polytope::tolerance::internalFacesEvery > Real(polytope::tolerance::flushOfDepth) * ball;
-	}
-
-	/// What tells that the overlap with a piece has grown or shrunk: in an impact it does within a few steps, and reaches other pieces.
-	Real measureOfOverlap(const polytope::ContactResult& result) { return -result.infeasibility * result.area; }
-
 	/// What a contact's geometry has elsewhere in memory is needed soon.
 	void fetchParts(const Interaction& contact)
 	{
@@ -207,8 +183,7 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	const bool                     surface = hasSurface(options.contactModel);
 	geom.atOnePoint                        = !surface;
 
-	// internal faces are searched for new contacts, for all where bodies were added or erased, and for the others every few steps, not all in the same step
-	const bool      turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
+	const bool      turn     = isTurn(*c, *scene);
 	const bool      asPieces = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
 	const bool      search   = asPieces && (turn || !geom.internalKnown || !wasReal || changeOfBodies_.in(*scene));
 	FollowedContact followed(pair, options, wasReal, geom);
@@ -231,14 +206,9 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	if (asPieces) settings.inside = &inside;
 	const polytope::KeptVertices last = memory.surface;
 	ask();
-	bool       sameSurface = result.surfaceKept;
-	const auto more        = [&] {
-                if (math::abs(measureOfOverlap(result) - geom.sizeAtSearch) > Real(polytope::tolerance::overlapChanged) * geom.sizeAtSearch)
-                        return true;
-                return memory.surface.vertices > 0 ? hasMetMore(*c, *scene, memory.surface, last)
-		                                          : mayMeetMore(motion, -result.infeasibility);
-	};
-	if (asPieces && result.inContact && (search || elsewhere || more())) {
+	bool sameSurface = result.surfaceKept;
+	if (asPieces && result.inContact
+	        && (search || elsewhere || mayHaveMetMore(*c, *scene, geom, result, motion, last, memory.surface))) {
 		const TouchingPair touching { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
 			{ frame1.rotation, rotation2 }, frame1.origin + inside, -result.infeasibility, nearer - centre2 };
 		const bool         changed = findInternalFaces(touching, internal);
@@ -249,7 +219,7 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 			ask();
 			sameSurface = false;
 		}
-		geom.sizeAtSearch = measureOfOverlap(result);
+		geom.sizeAtSearch = sizeOfOverlap(result);
 		if (polytope::ContactResult near; !changed && afterSearch && followed.take(near))
 			return write(near, frame1.origin, state1, state2, shift2, force, c);
 	}

@@ -3,6 +3,7 @@
 
 from .about import aboutScene
 from .bodies import bodyFindings
+from .concaveClumps import concaveClumps
 from .contacts import contactFindings
 from .costs import costFindings, takeCosts
 from .engines import engineFindings
@@ -32,8 +33,8 @@ def check(O, costs=False):
 	contacts of a rock joint's material with one of YADE's own, contacts of materials that were changed since, bodies too large for a periodic cell, bonds
 	whose engine is missing, numerical damping beside a moving base or a quiet boundary, water that acts too late, density, mass and size of
 	bodies, friction angles in degrees, cohesion and tensile strength in MPa, dilation above friction, stiffnesses too low for the loads,
-	joints so soft that a block topples a degree below its own angle, faces on several pieces with a stiffness for each contact, gravity
-	that begins at once on joints with a strength to lose, joints that lose their cohesion or tensile strength to the material on the other
+	joints so soft that a block topples a degree below its own angle, faces on several pieces with a stiffness for each contact,
+	clumps that are not convex with such stiffnesses and without damping, gravity that begins at once on joints with a strength to lose, joints that lose their cohesion or tensile strength to the material on the other
 	side, bodies that hang from what they only touch or that nothing fixed is below, engines that move bodies that are free or do not exist,
 	attributes that nothing reads, contact queries that failed, the time step and its time steppers, bodies that move farther than their
 	size in a step, turning boxes and facets that YADE's collider does not notice.
@@ -85,6 +86,6 @@ def checkOf(O, engines):
 		places = list(placeFindings(scene))
 		if not {'overlap', 'stiffness'} & {what for what, *_ in places}:  # with which no block stands as it is meant to
 			places += softJoints(scene)
-		found += [*places, *lostStrengths(scene), *hanging(scene), *falling(scene), *stepFindings(scene)]
+		found += [*places, *concaveClumps(scene), *lostStrengths(scene), *hanging(scene), *falling(scene), *stepFindings(scene)]
 	findings = (Finding(*one) for one in dict.fromkeys(found))  # bodies of one material find the same
 	return Check(findings, '' if engines or lost else aboutScene(scene))

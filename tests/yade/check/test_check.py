@@ -870,6 +870,20 @@ def testMembersOfAClumpWithAFaceInCommon(second, half, shared):
 	assert 'twice the stiffness' in found.seen and 'touch' in found.advice
 
 
+@pytest.mark.parametrize('perArea, damping', [(False, 0), (False, 0.2), (True, 0)])
+@pytest.mark.parametrize(
+	'places, concave',
+	[([(0, 0), (1, 0), (1, 1)], True), ([(0, 0), (1, 0), (2, 0)], False), ([(0, 0), (1, 0), (2.5, 1)], False), ([(0, 0), (1.5, 0), (1.5, 1)], False)],
+)
+def testClumpsThatAreNotConvex(places, concave, perArea, damping):
+	"""An L of three cubes; a bar; bars and a cube apart. It matters per contact, where nothing dampens."""
+	scene(material=rock(stiffnessPerArea=perArea, normalStiffness=1e7))
+	polytope.clump([polytope.cuboid((x / 2, 0, 2 + z / 2), (0.25, 0.25, 0.25)) for x, z in places])
+	O.engines = polytope.engines(damping=damping)
+	found = [one.what for one in polytope.check(O)]
+	assert ('concave clump' in found) == (concave and not perArea and damping == 0)
+
+
 def thrownCube(depth, support, perArea=True, size=0.04):
 	"""A cube so deep in what it stands on; the finding, and the greatest speed upwards without damping."""
 	O.reset()

@@ -2,37 +2,22 @@
 #pragma once
 
 #include "contact/ContactTypes.hpp"
+#include "contact/OverlapSums.hpp"
 #include "numbers/Rotation.hpp"
 #include "numbers/Tolerances.hpp"
 #include "program/PairPlanes.hpp"
-#include "shape/RingsOfNumbers.hpp"
 
 #include <algorithm>
 
-/// The overlap of two bodies as a polyhedron (3-D) or a polygon (2-D): volume (area), centroid, and what is seen of it along a direction.
+/// The overlap of two polyhedra as a polyhedron: volume, centroid, faces, and what is seen of it along a direction.
 ///
-/// A box that holds it (2-D: a square) is cut by one plane after the other, the nearest first. Each face is a
-/// loop of vertices, counter-clockwise seen from outside, which neighbouring faces share; what a cut leaves open is closed by a face of its own, from
-/// the vertices that the cut made. Most planes cut nothing: they cost one product with each vertex, or nothing if they are farther than any vertex.
-/// With an inner point x, and over the faces i with area A_i, centroid c_i and slack σ_i = d_i − a_i·x, the cones from x give
+/// A box that holds it is cut by one plane after the other, the nearest first. Each face is a loop of vertices, counter-clockwise seen from outside,
+/// which neighbouring faces share; what a cut leaves open is closed by a face of its own, from the vertices that the cut made. Most planes cut
+/// nothing: they cost one product with each vertex, or nothing if they are farther than any vertex. With an inner point x, and over the faces i
+/// with area A_i, centroid c_i and slack σ_i = d_i − a_i·x, the cones from x give
 ///
-///     V = Σ A_i σ_i / D,      centroid = x + Σ A_i σ_i (c_i − x) / ((D + 1) V).
-///
-/// Lengths in the planes' frame [m].
+///     V = Σ A_i σ_i / 3,      centroid = x + Σ A_i σ_i (c_i − x) / (4 V).
 namespace polytope {
-
-template <class R, int D> struct OverlapMass {
-	R volume      = 0; ///< [m³], 2-D: [m²]
-	R centroid[D] = {};
-};
-
-/// The overlap seen along n: its projection on the plane (the line) normal to n.
-template <class R> struct Footprint {
-	R area      = 0;  ///< [m²]; 2-D: length [m]
-	R second[3] = {}; ///< ∫ u², ∫ u v, ∫ v² dA along the axes around n (axesAround), from a point p [m⁴]; 2-D: the first alone, [m³]
-};
-
-template <class R, int D, int W> class Overlap;
 
 /// A closed surface: vertices, and faces as loops of them.
 template <class R> struct FaceLoops {
@@ -423,85 +408,6 @@ private:
 	int*                    next_;            ///< of a vertex that the cut made: the one after it in the new face
 	int*                    free_;            ///< places of vertices that were cut away
 	int                     freePlaces_ = 0;
-};
-
-/// The overlap of two polygons: a loop of corners, cut by one line after the other.
-template <class R, int W> class Overlap<R, 2, W> {
-public:
-	POLYTOPE_INLINE Overlap(const PairPlanes<R, 2>& planes, const R*, R halfWidth, ContactWorkspace& workspace)
-	        : planes_(planes), here_(workspace.polygons(4 * (planes.total + 5))), there_(here_ + 2 * (planes.total + 5))
-	{
-		const R corners[8] = { -halfWidth, -halfWidth, halfWidth, -halfWidth, halfWidth, halfWidth, -halfWidth, halfWidth };
-		for (int k = 0; k < 8; ++k)
-			here_[k] = corners[k];
-		const R tolerance = R(tolerance::violation) * halfWidth;
-		for (int i = 0; i < planes.total && count_ > 0; ++i)
-			if (planes.offset[i] < R(padOffset) / 2) cut(i, tolerance);
-	}
-
-	/// False if there is no measurable area.
-	POLYTOPE_INLINE bool mass(const R*, OverlapMass<R, 2>& result) const
-	{
-		const RingArea<R> ring = ringArea<R>(count_, [&](int k, R* uv) POLYTOPE_INLINE_LAMBDA {
-			uv[0] = here_[2 * k];
-			uv[1] = here_[2 * k + 1];
-		});
-		result.volume          = ring.area;
-		for (int k = 0; k < 2; ++k)
-			result.centroid[k] = ring.centroid[k];
-		return ring.area > 0;
-	}
-
-	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const
-	{
-		const Rotation<R, 2> axes = axesAround<R, 2>(n);
-		R                    low = 0, high = 0;
-		for (int v = 0; v < count_; ++v) {
-			const R from[2] = { here_[2 * v] - p[0], here_[2 * v + 1] - p[1] }, at = dot<R, 2>(axes.m[0], from);
-			low  = v > 0 ? minOf<R>(low, at) : at;
-			high = v > 0 ? maxOf<R>(high, at) : at;
-		}
-		Footprint<R> result;
-		result.area      = high - low;
-		result.second[0] = (high * high * high - low * low * low) / 3;
-		return result;
-	}
-
-private:
-	/// Removes what lies beyond line i. A corner beyond it by up to the tolerance stays, and a side that leaves is cut at the line itself, or at such
-	/// a corner. keepAbove() has one line for both: moved by the tolerance it would leave a larger polygon, at the line it would make short sides.
-	POLYTOPE_INLINE void cut(int i, R tolerance)
-	{
-		R a[2], d;
-		planes_.plane(i, a, d);
-		const auto beyond = [&](int v) POLYTOPE_INLINE_LAMBDA { return a[0] * here_[2 * v] + a[1] * here_[2 * v + 1] - d; };
-		int        kept   = 0;
-		R          before = beyond(count_ - 1);
-		for (int v = 0, last = count_ - 1; v < count_; last = v++) {
-			const R value = beyond(v);
-			if ((value > tolerance) != (before > tolerance)) {
-				const int inner = value > tolerance ? last : v, outer = value > tolerance ? v : last;
-				const R   in = minOf<R>(value, before), out = maxOf<R>(value, before), t = maxOf<R>(0, in / (in - out));
-				for (int k = 0; k < 2; ++k)
-					there_[2 * kept + k] = here_[2 * inner + k] + t * (here_[2 * outer + k] - here_[2 * inner + k]);
-				++kept;
-			}
-			if (!(value > tolerance)) {
-				for (int k = 0; k < 2; ++k)
-					there_[2 * kept + k] = here_[2 * v + k];
-				++kept;
-			}
-			before = value;
-		}
-		R* const swap = here_;
-		here_         = there_;
-		there_        = swap;
-		count_        = kept;
-	}
-
-	const PairPlanes<R, 2>& planes_;
-	R *                     here_, *there_;
-	int                     count_ = 4;
 };
 
 } // namespace polytope
