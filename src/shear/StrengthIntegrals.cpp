@@ -158,8 +158,9 @@ namespace {
 			const V mm = h * square * (p * c[0] + q * c[1]), me = square * (p * c[1] + q * c[2]),
 			        ee       = h * (p * c[2] + q * c[3]);
 			const V distance = h * ((atPole / 3 + gm * h / 4) * line.rho[0] + ge / 4 * line.rho[1]);
-			// one that the pole sees from its end, or in line, has no triangle
-			const V seen = absolute(h) > Real(tolerance::shearPole) * line.length ? edges.there : V(h - h);
+			// one that the pole sees from its end, or in line, has no triangle, nor has one between two corners in one place, whose h is no number
+			const V none = edges.there - edges.there,
+			        seen = absolute(h) > Real(tolerance::shearPole) * line.length ? edges.there : none;
 			sums.add(seen, line, across, along, distance, mm, me, ee);
 		}
 		return sums.together();

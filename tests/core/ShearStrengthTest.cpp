@@ -245,6 +245,26 @@ TEST(ShearStrength, ResistanceIsThatOfManySmallSquares)
 	EXPECT_LT((strengthOf(square, offset).resistance(slip) - bySquares(2, 2, offset, slip)).norm(), 1e-5);
 }
 
+TEST(ShearStrength, ARepeatedCornerChangesNothing)
+{
+	std::mt19937_64 random(5);
+	for (int sample = 0; sample < 200; ++sample) {
+		const Corners corners = randomOutline(random);
+		for (const Real aside : { 0., 1e-17, 1e-15, 1e-12 }) {
+			Corners repeated = corners;
+			repeated.insert(repeated.begin() + 2, corners[1] + Vector2(aside, -aside));
+			const ShearStrength one   = strengthOf(corners, Vector2(0.02, -0.01)),
+			                    other = strengthOf(repeated, Vector2(0.02, -0.01));
+			// about that corner, a place inside, and one far away
+			for (const Vector2& pole : { corners[1], Vector2(3, -1), Vector2(20, 5) }) {
+				const Vector2 arm  = one.centre() - pole;
+				const Vector3 slip = { -arm[1], arm[0], 1 };
+				EXPECT_LE((one.resistance(slip) - other.resistance(slip)).norm(), 1e-10) << sample << ' ' << aside;
+			}
+		}
+	}
+}
+
 TEST(ShearStrength, SlopeIsTheDerivativeAndPowerIsTheWork)
 {
 	std::mt19937_64                        random(3);
@@ -403,6 +423,25 @@ TEST(ShearReturn, HoldsUpToTheLimitSurfaceAndNotBeyond)
 
 // Loads that differ by rounding leave forces that differ by rounding, also where the centre of rotation lies at a corner: the iteration does not end
 // where the work that it compares is no longer known.
+TEST(ShearReturn, NothingHoldsMoreThanTheStrengthWhereACornerIsRepeated)
+{
+	for (const Real scale : { 1., 1e-9 })
+		for (const Real aside : { 0., 1e-17, 1e-12 })
+			for (const Real load : { 1.5, 5., 50. }) {
+				Corners corners { { 0, 0 }, { 0.4, 0 }, { 0.4, 0.25 }, { 0, 0.5 }, { -aside, aside } };
+				for (Vector2& corner : corners)
+					corner = scale * (corner - Vector2(0.2, 0.2));
+				const OutlineMoments moments  = momentsOf(corners.data(), int(corners.size()));
+				const ShearStrength  strength = strengthOf(corners, Vector2::Zero());
+				const Real           radius   = std::sqrt(moments.gyrationSquared());
+				// the bed's force where the face has turned about the repeated corner
+				const Vector2 arm = moments.centroid - corners[0], force = load / arm.norm() * left(arm);
+				Vector3       stays = { force[0], force[1], load / arm.norm() * radius * radius };
+				returned(strength, bedStiffness(1, radius * radius, Vector2::Zero()), stays);
+				EXPECT_LE(stays.head<2>().norm(), 1 + 1e-9) << scale << ' ' << aside << ' ' << load;
+			}
+}
+
 TEST(ShearReturn, LoadsThatDifferByRoundingLeaveTheSame)
 {
 	std::mt19937_64                        random(3);

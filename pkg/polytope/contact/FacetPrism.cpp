@@ -12,16 +12,17 @@ namespace yade {
 namespace {
 
 	/// A thread's own; it grows to the most facets that a facet has had beside it.
-	template <class Other> std::vector<Other>& facetsBeside()
+	template <class Facets> Facets& facetsOfThread()
 	{
-		static thread_local std::vector<Other> facets;
+		static thread_local Facets facets;
 		facets.clear();
 		return facets;
 	}
 
 } // namespace
 
-FacetInMesh::FacetInMesh(const Body& facet, const Body& body2, const Vector3r& shift2, Scene& scene) : others_(facetsBeside<Other>())
+FacetInMesh::FacetInMesh(const Body& facet, const Body& body2, const Vector3r& shift2, Scene& scene)
+        : others_(facetsOfThread<std::vector<Other>>()), mesh_(facetsOfThread<std::vector<Corners>>())
 {
 	const auto& shape = static_cast<const Facet&>(*facet.shape);
 	size_             = 0;
@@ -29,6 +30,7 @@ FacetInMesh::FacetInMesh(const Body& facet, const Body& body2, const Vector3r& s
 		corner_[k] = &shape.vertices[k];
 		size_      = math::max(size_, (shape.vertices[(k + 1) % 3] - shape.vertices[k]).norm());
 	}
+	mesh_.push_back({ *corner_[0], *corner_[1], *corner_[2] });
 	normal_          = normalOfTriangle([this](int k) -> const Vector3r& { return *corner_[k]; });
 	const Real near  = Real(pieces::sameCorner) * size_;
 	const auto toOwn = facet.state->ori.conjugate();
@@ -45,7 +47,9 @@ FacetInMesh::FacetInMesh(const Body& facet, const Body& body2, const Vector3r& s
 				if ((other.corner[k] - *corner_[own]).squaredNorm() <= near * near) other.own[k] = own;
 			shared += other.own[k] >= 0;
 		}
-		if (shared == 0 || shared == 3) return;
+		if (shared == 3) return;
+		mesh_.push_back({ other.corner[0], other.corner[1], other.corner[2] });
+		if (shared == 0) return;
 		others_.push_back(other);
 		if (shared == 2) addTilt(other);
 	});
@@ -70,21 +74,55 @@ void FacetInMesh::addTilt(const Other& other)
 	known_[k]       = true;
 }
 
+/// The facet of the mesh beyond an edge of another one, of several the one that rises most to the side `turn` of that one's normal.
+FacetInMesh::Beyond FacetInMesh::beyond(std::size_t facet, int edge, int turn) const
+{
+	const Corners& own    = mesh_[facet];
+	const Real     near   = Real(pieces::sameCorner) * size_;
+	const auto     at     = [&](int k) -> const Vector3r& { return own[std::size_t(k)]; };
+	const Vector3r normal = turn * normalOfTriangle(at), out = outwardOfEdge(at, Vector3r(turn * normal), edge);
+	const auto     isCorner = [&](const Vector3r& one, int k) { return (one - at(k % 3)).squaredNorm() <= near * near; };
+	Beyond         found { mesh_.size(), turn, 0 };
+	for (std::size_t other = 0; other < mesh_.size(); ++other)
+		for (int k = 0; k < 3 && other != facet; ++k) {
+			const Vector3r &one = mesh_[other][std::size_t(k)], &two = mesh_[other][std::size_t((k + 1) % 3)];
+			const bool      against = isCorner(one, edge + 1) && isCorner(two, edge),
+			           along        = isCorner(one, edge) && isCorner(two, edge + 1);
+			if (!against && !along) continue;
+			const Vector3r to = mesh_[other][std::size_t((k + 2) % 3)] - at(edge);
+			using std::atan2;
+			const Real tilt = atan2(normal.dot(to), out.dot(to));
+			if (found.facet == mesh_.size() || tilt > found.tilt) found = { other, against ? turn : -turn, tilt };
+		}
+	return found;
+}
+
+/// Goes over the mesh towards the point, from facet to facet, until it is beside one, or at the edge between two.
 int FacetInMesh::sideOf(const Vector3r& point) const
 {
-	int  farthest = -1;
-	Real beyond   = 0;
-	for (int k = 0; k < 3; ++k) {
-		const Real way = outward(k).dot(point - *corner_[k]);
-		if (way > beyond) {
-			beyond   = way;
-			farthest = k;
+	std::size_t facet = 0, last = mesh_.size();
+	int         turn = 1;
+	for (std::size_t hop = 0;; ++hop) {
+		const auto     at       = [&](int k) -> const Vector3r& { return mesh_[facet][std::size_t(k)]; };
+		const Vector3r normal   = normalOfTriangle(at);
+		int            farthest = -1;
+		Real           way      = 0;
+		for (int k = 0; k < 3; ++k) {
+			const Real out = outwardOfEdge(at, normal, k).dot(point - at(k));
+			if (out > way) {
+				way      = out;
+				farthest = k;
+			}
 		}
+		const Real   above = turn * normal.dot(point - at(0));
+		const Beyond next  = farthest < 0 ? Beyond { mesh_.size(), turn, 0 } : beyond(facet, farthest, turn);
+		if (next.facet == mesh_.size()) return above < 0 ? -1 : 1;
+		using std::atan2;
+		if (next.facet == last || hop == mesh_.size()) return atan2(above, way) < next.tilt ? -1 : 1;
+		last  = facet;
+		facet = next.facet;
+		turn  = next.turn;
 	}
-	const Real above = normal_.dot(point - *corner_[0]);
-	if (farthest < 0 || !known_[farthest]) return above < 0 ? -1 : 1;
-	using std::atan2;
-	return atan2(above, beyond) < highest_[farthest] ? -1 : 1;
 }
 
 void FacetInMesh::Prism::add(const Vector3r& normal, const Vector3r& point) { planes[size_t(count++)] = { normal, normal.dot(point) }; }

@@ -29,8 +29,8 @@ public:
 	/// `shift2`: to where body 2, which meets the facet, is in the period of body 1.
 	FacetInMesh(const Body& facet, const Body& body2, const Vector3r& shift2, Scene& scene);
 
-	/// The side of the facet on which a point lies; +1 is the side of the normal. Beyond an edge that another facet shares, the two decide together: a
-	/// body that overhangs the edge of a box stands on its top, and the box's side is seen from outside.
+	/// The side of the facet on which a point lies; +1 is the side of the normal. Beyond an edge that another facet shares, the facet decides that the
+	/// mesh has beside the point: a body that overhangs the edge of a box stands on its top, and the box's side is seen from outside.
 	int sideOf(const Vector3r& point) const;
 
 	struct Prism {
@@ -51,14 +51,25 @@ private:
 		std::array<int, 3> own; ///< the facet's corner that this one is, or −1
 	};
 
+	using Corners = std::array<Vector3r, 3>;
+	/// A facet of the mesh beyond the edge of another one: its number, or that of all for none; whether its normal (1) or the opposite (−1) is on the side
+	/// +1; and its tilt over that one's plane, towards that side [rad].
+	struct Beyond {
+		std::size_t facet;
+		int         turn;
+		Real        tilt;
+	};
+
+	Beyond   beyond(std::size_t facet, int edge, int turn) const;
 	void     addTilt(const Other& other);
 	void     addCutsAt(int corner, const Vector3r& up, Prism& prism) const;
 	Vector3r outward(int edge) const;
 
-	const Vector3r*     corner_[3];
-	Vector3r            normal_; ///< on side +1
-	Real                size_;   ///< longest edge
-	std::vector<Other>& others_;
+	const Vector3r*       corner_[3];
+	Vector3r              normal_; ///< on side +1
+	Real                  size_;   ///< longest edge
+	std::vector<Other>&   others_;
+	std::vector<Corners>& mesh_; ///< all facets that the body may touch, first this one
 	/// Angles of the neighbours beyond each edge over the facet's plane, towards side +1 [rad]: the lowest and the highest.
 	Real lowest_[3], highest_[3];
 	bool known_[3] = { false, false, false };

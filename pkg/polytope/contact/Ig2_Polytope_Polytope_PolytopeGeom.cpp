@@ -6,6 +6,8 @@
 #include <src/contact/Preconditions.hpp>
 #include <src/shape/CheckedNumbers.hpp>
 
+#include "host/ExactClass.hpp"
+
 namespace yade {
 
 POLYTOPE_CLASSES((Ig2_Polytope_Polytope_PolytopeGeom));
@@ -112,8 +114,9 @@ polytope::ContactOptions Ig2_Polytope_Polytope_PolytopeGeom::options(StiffnessRu
 bool Ig2_Polytope_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
         const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	const auto& convex1 = static_cast<const Polytope&>(*shape1).convex();
-	const auto& convex2 = static_cast<const Polytope&>(*shape2).convex();
+	const auto *const polytope1 = asClass<Polytope>(shape1.get()), *const polytope2 = asClass<Polytope>(shape2.get());
+	if (!polytope1 || !polytope2) return isOfOthers(*c);
+	const auto &convex1 = polytope1->convex(), &convex2 = polytope2->convex();
 	if (!convex1 || !convex2) return false; // no planes: nothing to touch
 	const Body1Frame frame1 { state1.pos, state1.ori.toRotationMatrix() };
 	return query(*convex1, frame1, *convex2, state1, state2, shift2, force, c);

@@ -5,6 +5,7 @@
 #include "contact/SphereOnPieces.hpp"
 #include "contact/StandIns.hpp"
 #include "contact/StiffnessShare.hpp"
+#include "host/ExactClass.hpp"
 #include "shape/WallShape.hpp"
 
 #include <core/Scene.hpp>
@@ -17,12 +18,30 @@ namespace yade {
 POLYTOPE_CLASSES(
         (Ig2_Wall_Polytope_PolytopeGeom)(Ig2_Box_Polytope_PolytopeGeom)(Ig2_Facet_Polytope_PolytopeGeom)(Ig2_Sphere_Polytope_PolytopeGeom));
 
+namespace {
+
+	/// The two shapes as those of a functor's classes.
+	template <class Other> struct Shapes {
+		const Other*    other;
+		const Polytope* polytope;
+
+		Shapes(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2)
+		        : other(asClass<Other>(shape1.get())), polytope(asClass<Polytope>(shape2.get()))
+		{
+		}
+		bool areOfTheseClasses() const { return other && polytope; }
+	};
+
+} // namespace
+
 bool Ig2_Wall_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
         const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	const auto& wall   = static_cast<const Wall&>(*shape1);
-	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
-	if (!convex) return false;
+	const Shapes<Wall> shapes(shape1, shape2);
+	if (!shapes.areOfTheseClasses()) return isOfOthers(*c);
+	if (!shapes.polytope->convex()) return false;
+	const Wall& wall   = *shapes.other;
+	const auto& convex = shapes.polytope->convex();
 	if (wall.axis >= convex->dimension()) return failed(c); // parallel to a polygon's plane: it has no edge there
 	StandIn& standIn = geometry(c).standIn.make();
 	if (!standIn.partner) {
@@ -37,20 +56,24 @@ bool Ig2_Wall_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const s
 bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
         const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
-	if (!convex) return false;
-	StandIn& standIn = geometry(c).standIn.make();
-	standForBox(static_cast<const Box&>(*shape1), convex->cornerRadius(), standIn);
+	const Shapes<Box> shapes(shape1, shape2);
+	if (!shapes.areOfTheseClasses()) return isOfOthers(*c);
+	if (!shapes.polytope->convex()) return false;
+	const auto& convex  = shapes.polytope->convex();
+	StandIn&    standIn = geometry(c).standIn.make();
+	standForBox(*shapes.other, convex->cornerRadius(), standIn);
 	if (!standIn.partner) return failed(c);
 	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
 
-bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>&, const shared_ptr<Shape>& shape2, const State& state1,
+bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
         const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
-	if (!convex) return false;
-	StandIn& standIn = geometry(c).standIn.make();
+	const Shapes<Facet> shapes(shape1, shape2);
+	if (!shapes.areOfTheseClasses()) return isOfOthers(*c);
+	if (!shapes.polytope->convex()) return false;
+	const auto& convex  = shapes.polytope->convex();
+	StandIn&    standIn = geometry(c).standIn.make();
 	standForFacet(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), shift2, *scene, !c->isReal(),
 	        2 * convex->boundingRadius(), convex->cornerRadius(), standIn);
 	if (!standIn.partner) return failed(c);
@@ -60,9 +83,11 @@ bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>&, const shared_
 bool Ig2_Sphere_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
         const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	const Real  radius = static_cast<const Sphere&>(*shape1).radius;
-	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
-	if (!convex) return false;
+	const Shapes<Sphere> shapes(shape1, shape2);
+	if (!shapes.areOfTheseClasses()) return isOfOthers(*c);
+	if (!shapes.polytope->convex()) return false;
+	const Real     radius  = shapes.other->radius;
+	const auto&    convex  = shapes.polytope->convex();
 	const Vector3r centre2 = state2.pos + shift2 - state1.pos;
 	const bool     wasReal = c->isReal();
 	if (!wasReal && !force && centre2.norm() > radius + convex->boundingRadius()) return false;

@@ -143,10 +143,10 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		((std::int8_t, faceForceCode, 0, (Attr::readonly | Attr::hidden), "What the normal force depends on where the bodies tilt, as a "
 		        "number (FaceForce)"))
 		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
-		((Real, sizeAtSearch, 0, (Attr::readonly | Attr::hidden), "Radius of the overlap's ball times contactArea when they were last "
-		        "searched for [m³]"))
 		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Rule of the contact's physics: none that the geometry knows, a "
 		        "stiffness per area or one per contact (StiffnessRule)"))
+		((Real, sizeAtSearch, 0, (Attr::readonly | Attr::hidden), "Radius of the overlap's ball times contactArea when they were last "
+		        "searched for [m³]"))
 		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several "
 		        "pieces, by the areas on each. Polytopes: per contact and with YADE's own physics, on pieces of a rigid support that lie "
 		        "flush (fixed bodies, members of a clump). Shapes with a margin of extensions: on pieces of a rigid support, by what of "
@@ -285,6 +285,10 @@ protected:
 	/// Counts a pair that has no answer (a shape that is no solid, a polygon against a polyhedron): its status is *failed*, stats() has it
 	/// among *failures*, and a contact keeps its last geometry.
 	bool failed(const shared_ptr<Interaction>& c);
+
+	/// Of shapes of other classes than this functor's: a script has exchanged one while YADE kept the functor with the contact. It is made anew, with the
+	/// right one. Returns false, as go() does then.
+	static bool isOfOthers(Interaction& contact);
 
 	ContactCounters& counters();
 	void             count(const polytope::ContactResult& result);

@@ -280,6 +280,12 @@ bool PolytopeGeomFunctor::write(const polytope::ContactResult& result, const Vec
 	return true;
 }
 
+bool PolytopeGeomFunctor::isOfOthers(Interaction& contact)
+{
+	if (!contact.isReal()) contact.functorCache.geom = nullptr;
+	return false;
+}
+
 bool PolytopeGeomFunctor::failed(const shared_ptr<Interaction>& c)
 {
 	ContactCounters& count = counters();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pairs/BoxRoom.hpp"
 
+#include <lib/pyutil/gil.hpp>
+
 #include <src/numbers/Tolerances.hpp>
 
 #include "host/PartsOfBodies.hpp"
@@ -53,8 +55,10 @@ void BoxRoom::makeOne(const Scene& scene, std::size_t id, const Limits& limits)
 	const auto* const  polytope  = dynamic_cast<const Polytope*>(shape);
 	const auto         margin    = polytope ? polytope->margin() : std::nullopt;
 	if (!polytope || !polytope->convex() || !margin) {
-		reference  = Reference();
-		rooms_[id] = 0;
+		shared_ptr<State> state = std::move(reference.state);
+		reference               = Reference();
+		reference.state         = std::move(state); // until takeOne() has the body's present one
+		rooms_[id]              = 0;
 		if (!shape || familyOf(*shape).isRound(*shape)) return;
 		reference.radius      = 1; // any: there is no room
 		reference.orientation = body->state->ori;
@@ -97,16 +101,32 @@ void BoxRoom::takeOne(const Scene& scene, std::size_t id)
 {
 	const Body* const body      = bodyOf(scene, id);
 	Reference&        reference = references_[id];
-	if (!body || !body->bound) {
-		reference.state.reset();
-		return;
+	if (!body || !body->bound) return letGo(reference.state);
+	if (reference.state != body->state) {
+		letGo(reference.state);
+		reference.state = body->state;
 	}
-	if (reference.state != body->state) reference.state = body->state;
 	reference.sweep       = body->bound->sweepLength;
 	reference.position    = body->state->pos;
 	reference.blockedDOFs = body->state->blockedDOFs;
 	reference.fixed       = isFixed(*body, scene);
 	reference.still       = reference.fixed && !hasVelocity(*body->state);
+}
+
+void BoxRoom::letGo(shared_ptr<State>& state)
+{
+	if (!state) return;
+#pragma omp critical(polytopeStatesOfBodies)
+	gone_.push_back(std::move(state));
+	state.reset();
+}
+
+/// States that scripts have made belong to Python's memory, too, which one thread at a time may change.
+void BoxRoom::releaseStates()
+{
+	if (gone_.empty()) return;
+	const gilLock lock;
+	gone_.clear();
 }
 
 void BoxRoom::takeFromAll(const Scene& scene)
@@ -115,12 +135,14 @@ void BoxRoom::takeFromAll(const Scene& scene)
 #pragma omp parallel for schedule(static)
 	for (long id = 0; id < number; ++id)
 		takeOne(scene, id);
+	releaseStates();
 }
 
 void BoxRoom::take(const Scene& scene, const std::vector<Body::id_t>& ids)
 {
 	for (const Body::id_t id : ids)
-		takeOne(scene, id);
+		takeOne(scene, std::size_t(id));
+	releaseStates();
 }
 
 bool BoxRoom::isOutside(std::size_t id, bool byTranslation) const

@@ -68,11 +68,15 @@ public:
 private:
 	void makeOne(const Scene& scene, std::size_t id, const Limits& limits);
 	void takeOne(const Scene& scene, std::size_t id);
+	void letGo(shared_ptr<State>& state);
+	void releaseStates();
 	bool isOutside(std::size_t id, bool byTranslation) const;
 	bool isFreed(const Scene& scene, std::size_t id) const;
 
 	std::vector<Reference> references_;
 	std::vector<Real>      rooms_;
+	/// Of bodies that were erased, or given others.
+	std::vector<shared_ptr<State>> gone_;
 };
 
 } // namespace yade

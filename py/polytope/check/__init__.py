@@ -10,6 +10,7 @@ from .engines import engineFindings
 from .extensions import derivedShapes, ownClosures
 from .falling import falling
 from .findings import Check, Finding
+from .incomplete import incomplete
 from .lostStrengths import hanging, lostStrengths
 from .materials import changedMaterials, defaultMaterial
 from .pairs import pairFindings
@@ -24,7 +25,7 @@ __all__ = ['Check', 'check', 'checkOf']
 def check(O, costs=False):
 	"""Checks the present scene for what is wrong. Most of it YADE would not tell.
 
-	It looks at: missing or misplaced engines, bounds, contact functors, physics and laws for shapes and materials that can meet, laws that
+	It looks at: bodies without a material or a shape, missing or misplaced engines, bounds, contact functors, physics and laws for shapes and materials that can meet, laws that
 	apply forces as for spheres, margins with a stiffness per area, shapes of extensions without a margin or with one that is none, normal
 	laws that do not fit together, contact models whose unit of stiffness is another, contacts without any damping whose model does not
 	conserve energy, polygons that meet what they cannot touch, positions and velocities that are not numbers, polytopes in the same place
@@ -70,6 +71,9 @@ def check(O, costs=False):
 def checkOf(O, engines):
 	"""Checks the scene as it would be with these engines; None: its own."""
 	scene = SceneToCheck(O, engines)
+	lacking = [Finding(*one) for one in incomplete(scene)]
+	if lacking:
+		return Check(lacking, '')
 	lost = list(lostBodies(scene))
 	found = [
 		*lost,

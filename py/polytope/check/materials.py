@@ -59,6 +59,9 @@ def _ofFaces(body):
 
 def _differences(phys, materials, makers):
 	"""What is not the same in a contact and its materials; of values that the law changes itself, none."""
+	if not all(isinstance(material, RockJointMat) for material in materials):
+		yield 'kind of joint'
+		return
 	ofMaterials = {isPerArea(material, makers) for material in materials}
 	ofContact = {True: phys.normalStiffness > 0, False: phys.normalStiffnessPerContact > 0}  # none: spheres
 	if len(ofMaterials) == 1 and any(ofContact.values()):

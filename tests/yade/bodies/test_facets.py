@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import trimesh
 from scenes import joint
-from yade import Facet, Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, polytope
+from yade import Facet, Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, polytope, utils
 
 width, height = 2000, 1000  # [mm]
 
@@ -99,3 +99,23 @@ def testPiecesOfOneThingHaveOneColour(cup):
 	assert all({tuple(piece.shape.color) for piece in pieces} == {(1, 0, 0)} for pieces in things(color=(1, 0, 0)))
 	with pytest.raises(ValueError, match='^color: '):
 		polytope.plates((0, 0, 0), (1, 1, 1), color='red')
+
+
+@pytest.mark.parametrize('split', [1, 2])
+def testAPlateThatOverhangsTheRidgeOfARoofLiesThere(split):
+	"""Its centre is over facets that do not touch the ridge; those beyond the ridge must not be seen from below."""
+	slope = 0.3
+	rows = [k / split for k in range(-2 * split, 2 * split + 1)]
+	for x, next_ in zip(rows, rows[1:], strict=False):
+		for y, beyond in zip(rows, rows[1:], strict=False):
+			one, two, three, four = ((a, b, -slope * abs(a)) for a, b in ((x, y), (next_, y), (next_, beyond), (x, beyond)))
+			O.bodies.append([utils.facet([one, two, three], fixed=True), utils.facet([one, three, four], fixed=True)])
+	tilt = np.arctan(slope)
+	normal = np.array([-np.sin(tilt), 0, np.cos(tilt)])
+	start = np.array([-0.28, -0.59, -0.28 * slope]) + 0.0401 * normal
+	plate = O.bodies[O.bodies.append(polytope.cuboid(tuple(start), (0.6, 0.5, 0.04), orientation=Quaternion((0, 1, 0), -tilt)))]
+	O.engines = polytope.engines()
+	polytope.run(until=0.1)
+	assert plate.state.vel.norm() < 1e-3
+	assert np.linalg.norm(np.array(plate.state.pos, float) - start) < 1e-3
+	assert all(abs(contact.geom.normal.dot(tuple(normal))) > 0.999 for contact in O.interactions if contact.isReal)

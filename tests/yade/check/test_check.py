@@ -39,6 +39,7 @@ from yade import (
 	Law2_ScGeom_MindlinPhys_Mindlin,
 	NewtonIntegrator,
 	O,
+	Polytope,
 	PolytopeCollider,
 	PolytopeTimeStepper,
 	Quaternion,
@@ -868,6 +869,17 @@ def testMembersOfAClumpWithAFaceInCommon(second, half, shared):
 		return
 	found = next(one for one in polytope.check(O) if one.what == 'overlapping members')
 	assert 'twice the stiffness' in found.seen and 'touch' in found.advice
+
+
+@pytest.mark.parametrize('attribute, value, what', [('mat', None, 'material'), ('shape', None, 'shape'), ('shape', Polytope, 'shape'), ('mat', FrictMat, 'material')])
+def testABodyInContactThatLacksSomething(attribute, value, what):
+	"""YADE ends the process where it meets a body without a material, and at a contact of two materials that nothing joins."""
+	scene()
+	O.bodies[1].state.pos = (0, 0, 0.4999)
+	O.step()
+	setattr(O.bodies[1], attribute, value and value())
+	found = [one for one in polytope.check(O) if one.what == what]
+	assert found and 'body 1' in found[0].seen
 
 
 @pytest.mark.parametrize('perArea, damping', [(False, 0), (False, 0.2), (True, 0)])

@@ -6,7 +6,8 @@ import os
 import pathlib
 import sys
 
-from scenes import joint, loop
+import pytest
+from scenes import bounds, joint, loop, supports, withPolytopes
 from yade import Bo1_Sphere_Aabb, Ig2_Sphere_Polytope_PolytopeGeom, O, Quaternion, polytope, utils
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'tools/measure/benchmark'))
@@ -155,6 +156,42 @@ def testMemoryOfAnExchangedShapeIsNotRead():
 		body.shape = polytope.regular(4, 0.3).shape
 	O.run(2, True)
 	assert functor().stats()['failures'] == 0 and O.interactions.countReal() == 0
+
+
+floors = {
+	'polytope': lambda: polytope.cuboid((0, 0, -1), (3, 3, 1), fixed=True),
+	'box': supports['box'][1],
+	'facet': supports['facet'][1],
+	'wall': supports['wall'][1],
+}
+blocks = {'block': lambda: polytope.cuboid((0, 0, 0.1), (0.3, 0.2, 0.1)), 'ball': lambda: utils.sphere((0, 0, 0.1), 0.1)}
+
+
+@pytest.mark.parametrize('after', [*floors, 'ball'])
+@pytest.mark.parametrize('before', floors)
+def testAShapeIsExchangedForOneOfAnotherClass(before, after):
+	"""YADE keeps a contact's functor; the contact is made anew, with the right one, and the body lies there as before."""
+	O.reset()
+	joint()
+	O.bodies.append(floors[before]())
+	O.bodies.append(blocks['block']())
+	loop(perArea=True, gravity=(0, 0, -9.81), damping=0.5)
+	O.engines[1].boundDispatcher.functors = [one() for one in bounds]
+	O.engines[2].geomDispatcher.functors = [one() for one in withPolytopes]
+	O.dt = 1e-4
+	O.run(200, True)
+	if after == 'ball':
+		O.bodies[1].shape = blocks['ball']().shape
+	else:
+		O.bodies[0].shape = floors[after]().shape
+		O.bodies[0].state.pos = floors[after]().state.pos
+	O.run(1, True)
+	if after == 'ball' and before != 'polytope':
+		assert not O.interactions.has(0, 1, True)  # that would be YADE's own
+		return
+	O.run(6000, True)
+	assert abs(O.bodies[1].state.pos[2] - 0.1) < (1e-2 if after == 'ball' else 1e-3)  # under the block's weight
+	assert abs(O.forces.f(1)[2] / (9.81 * O.bodies[1].state.mass) - 1) < 1e-2
 
 
 def approach(begin):

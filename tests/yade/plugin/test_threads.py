@@ -89,3 +89,27 @@ def testEnergiesOfTwoThreads():
 	one, two = run('columns', 1, 1000, energy=True), run('columns', 2, 1000, energy=True)
 	assert len(one) == len(two)
 	assert max(abs(a - b) / max(1, abs(a)) for a, b in zip(one, two)) < 1e-10
+
+
+erasing = """
+import random
+from yade import O, RockJointMat, Vector3, polytope, utils
+random.seed(2)
+O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5))
+O.bodies.append(polytope.cuboid((9, 9, -0.5), (19, 19, 0.5), fixed=True))
+places = [Vector3(i % 7 * 1.5, i // 7 * 1.5, 0.5) for i in range(40)]
+made = [O.bodies.append(utils.sphere(at, 0.4) if k % 2 else utils.box(at, (0.4, 0.4, 0.4), fixed=True)) for k, at in enumerate(places)]
+O.bodies.append([polytope.cuboid((2 * i, 4, 2), (0.2, 0.2, 0.2)) for i in range(5)])
+O.engines = polytope.engines()
+for k in range(40):
+	O.run(3, True)
+	O.bodies.erase(made.pop(random.randrange(len(made))))
+	O.bodies.append(polytope.cuboid((0.3 * k, -4, 2), (0.1, 0.1, 0.1)))
+"""
+
+
+def testBodiesOfYadesShapesAreErasedWithTwoThreads():
+	"""Their states belong to Python, too, whose memory one thread may change."""
+	environment = dict(os.environ, OMP_NUM_THREADS='2')
+	done = subprocess.run([sys.executable, '-c', erasing], env=environment, capture_output=True, text=True, timeout=600)
+	assert done.returncode == 0, done.stderr

@@ -92,6 +92,8 @@ def perPair(near, far, build, touching):
 	"""Bytes that each pair takes of the bodies that *build* puts at the places *near*; at the places *far* they have none."""
 	from yade import O
 
+	build(near)
+	O.step()  # what all pairs share is there from now on
 	build(far)
 	without = bytesOfFirstStep()
 	assert len(O.interactions) == 0
