@@ -25,20 +25,21 @@ __all__ = ['Check', 'check', 'checkOf']
 def check(O, costs=False):
 	"""Checks the present scene for what is wrong. Most of it YADE would not tell.
 
-	It looks at: bodies without a material or a shape, missing or misplaced engines, bounds, contact functors, physics and laws for shapes and materials that can meet, laws that
-	apply forces as for spheres, margins with a stiffness per area, shapes of extensions without a margin or with one that is none, normal
-	laws that do not fit together, contact models whose unit of stiffness is another, contacts without any damping whose model does not
-	conserve energy, polygons that meet what they cannot touch, positions and velocities that are not numbers, polytopes in the same place
-	or deep in each other, boxes without thickness, facets without an area, engines that are there twice, controllers for spheres only,
-	YADE's density scaling, bodies that have YADE's default material in place of the scene's,
-	contacts of a rock joint's material with one of YADE's own, contacts of materials that were changed since, bodies too large for a periodic cell, bonds
-	whose engine is missing, numerical damping beside a moving base or a quiet boundary, water that acts too late, density, mass and size of
-	bodies, friction angles in degrees, cohesion and tensile strength in MPa, dilation above friction, stiffnesses too low for the loads,
-	joints so soft that a block topples a degree below its own angle, faces on several pieces with a stiffness for each contact,
-	clumps that are not convex with such stiffnesses and without damping, gravity that begins at once on joints with a strength to lose, joints that lose their cohesion or tensile strength to the material on the other
-	side, bodies that hang from what they only touch or that nothing fixed is below, engines that move bodies that are free or do not exist,
-	attributes that nothing reads, contact queries that failed, the time step and its time steppers, bodies that move farther than their
-	size in a step, turning boxes and facets that YADE's collider does not notice.
+	It looks at: bodies without a material or a shape, missing or misplaced engines, bounds, contact functors, physics and laws for shapes
+	and materials that can meet, laws that apply forces as for spheres, margins with a stiffness per area, shapes of extensions without a
+	margin or with one that is none, normal laws that do not fit together, contact models whose unit of stiffness is another, contacts
+	without any damping whose model does not conserve energy, polygons that meet what they cannot touch, positions and velocities that are
+	not numbers, polytopes in the same place or deep in each other, boxes without thickness, facets without an area, engines that are there
+	twice, controllers for spheres only, YADE's density scaling, bodies that have YADE's default material in place of the scene's, contacts
+	of a rock joint's material with one of YADE's own, contacts of materials that were changed since, bodies too large for a periodic cell,
+	bonds whose engine is missing, numerical damping beside a moving base or a quiet boundary, water that acts too late, density, mass and
+	size of bodies, friction angles in degrees, cohesion and tensile strength in MPa, dilation above friction, stiffnesses too low for the
+	loads, joints so soft that a block topples a degree below its own angle, faces on several pieces with a stiffness for each contact,
+	clumps that are not convex with such stiffnesses and without damping, gravity that begins at once on joints with a strength to lose,
+	joints that lose their cohesion or tensile strength to the material on the other side, bodies that hang from what they only touch or
+	that nothing fixed is below, engines that move bodies that are free or do not exist, attributes that nothing reads, contact queries
+	that failed, the time step and its time steppers, bodies that move farther than their size in a step, turning boxes and facets that
+	YADE's collider does not notice.
 
 	It lists all that it finds, not the first only, and then says how many bodies can move, their sizes in m and masses in kg, the extent of
 	what is fixed, and gravity: a stone of 40 m is no mistake that it can know of. Where a position or velocity is not a number, what rests
