@@ -421,8 +421,6 @@ TEST(ShearReturn, HoldsUpToTheLimitSurfaceAndNotBeyond)
 	}
 }
 
-// Loads that differ by rounding leave forces that differ by rounding, also where the centre of rotation lies at a corner: the iteration does not end
-// where the work that it compares is no longer known.
 TEST(ShearReturn, NothingHoldsMoreThanTheStrengthWhereACornerIsRepeated)
 {
 	for (const Real scale : { 1., 1e-9 })
@@ -442,6 +440,8 @@ TEST(ShearReturn, NothingHoldsMoreThanTheStrengthWhereACornerIsRepeated)
 			}
 }
 
+// Loads that differ by rounding leave forces that differ by rounding, also where the centre of rotation lies at a corner: the iteration does not end
+// where the work that it compares is no longer known.
 TEST(ShearReturn, LoadsThatDifferByRoundingLeaveTheSame)
 {
 	std::mt19937_64                        random(3);

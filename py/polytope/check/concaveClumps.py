@@ -6,11 +6,11 @@ import itertools
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
-from yade import O, Polytope, RockJointMat, _polytope
+from yade import O, Polytope, RockJointMat
 
 from ..scene.present import isPerArea, jointMakers
 from ..scene.vertices import worldVertices
-from .neighbours import touching
+from .neighbours import contactOf
 
 __all__ = ['concaveClumps']
 
@@ -54,22 +54,17 @@ def _solids(members):
 	count = len(members)
 	meet = np.zeros((count, count), bool)
 	for i, j in itertools.combinations(range(count), 2):
-		meet[i, j] = _touch(members[i], members[j])
+		radius = min(float(members[k].shape.circumscribedRadius) for k in (i, j))
+		meet[i, j] = contactOf(members[i], members[j], radius) is not None
 	_, label = scipy.sparse.csgraph.connected_components(meet, directed=False)
 	return [[members[k] for k in np.flatnonzero(label == one)] for one in np.unique(label)]
 
 
-def _touch(one, other):
-	reach = float(min(body.shape.circumscribedRadius for body in (one, other)))
-	try:
-		return float(_polytope.contact(one, other).infeasibility) < touching * reach
-	except ValueError:  # a polygon and a polyhedron
-		return False
-
-
 def _isConcave(members):
+	if len(members) == 1:
+		return False
 	dimension = members[0].shape.dimension
 	corners = np.concatenate([worldVertices(body)[:, :dimension] for body in members])
-	hull = float(scipy.spatial.ConvexHull(corners).volume)
 	thickness = 1.0 if dimension == 3 else float(members[0].shape.thickness)
-	return len(members) > 1 and hull * thickness - sum(float(body.shape.volume) for body in members) > missing * hull * thickness
+	hull = float(scipy.spatial.ConvexHull(corners).volume) * thickness
+	return hull - sum(float(body.shape.volume) for body in members) > missing * hull

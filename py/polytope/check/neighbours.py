@@ -10,7 +10,7 @@ from yade import _polytope
 from ..measures.arrays import arrays
 from .overlaps import mayMeet, sortedOffsets
 
-__all__ = ['looks', 'touching', 'touchingPairs']
+__all__ = ['contactOf', 'looks', 'touching', 'touchingPairs']
 
 touching = 1e-6
 """Gap over the smaller circumscribed radius up to which bodies are in touch from the start."""
@@ -30,12 +30,18 @@ def touchingPairs(scene, bodies):
 	rank = np.argsort(np.argsort(-radii, kind='stable'))  # the larger one of a pair looks for the other
 	pairs = ((bodies[i], bodies[j], radii[j]) for i, others in enumerate(near) for j in others if rank[i] < rank[j])
 	for one, other, radius in itertools.islice((pair for pair in pairs if _meet(scene, *pair[:2])), looks):
-		try:
-			contact = _polytope.contact(one, other)
-		except ValueError:  # a polygon and a polyhedron
-			continue
-		if float(contact.infeasibility) < touching * radius:
+		contact = contactOf(one, other, radius)
+		if contact is not None:
 			yield one, other, contact
+
+
+def contactOf(one, other, radius):
+	"""The contact of two polytopes, the smaller of which has this circumscribed radius [m]; None: they do not touch."""
+	try:
+		contact = _polytope.contact(one, other)
+	except ValueError:  # a polygon and a polyhedron
+		return None
+	return contact if float(contact.infeasibility) < touching * radius else None
 
 
 def _meet(scene, one, other):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Containers from mesh files as facets: `polytope.facets(…)`, and what fromMesh says of such a mesh."""
 
+import itertools
+
 import numpy as np
 import pytest
 import trimesh
@@ -106,8 +108,8 @@ def testAPlateThatOverhangsTheRidgeOfARoofLiesThere(split):
 	"""Its centre is over facets that do not touch the ridge; those beyond the ridge must not be seen from below."""
 	slope = 0.3
 	rows = [k / split for k in range(-2 * split, 2 * split + 1)]
-	for x, next_ in zip(rows, rows[1:], strict=False):
-		for y, beyond in zip(rows, rows[1:], strict=False):
+	for x, next_ in itertools.pairwise(rows):
+		for y, beyond in itertools.pairwise(rows):
 			one, two, three, four = ((a, b, -slope * abs(a)) for a, b in ((x, y), (next_, y), (next_, beyond), (x, beyond)))
 			O.bodies.append([utils.facet([one, two, three], fixed=True), utils.facet([one, three, four], fixed=True)])
 	tilt = np.arctan(slope)
