@@ -24,7 +24,7 @@ namespace {
 			if (beside.isCovered) return;
 			const Real length = (other - one).norm();
 			along += length;
-			if (solid.risesAt(face, beside, (one + other) / 2, covered.middle)) rising += length;
+			if (solid.risesAt(face, beside, (one + other) / 2, length, covered.middle)) rising += length;
 		});
 		if (along > 0) return 2 * rising <= along;
 		// where the overlap reaches it with a corner alone, from another face: as if it went on to that one
@@ -36,7 +36,7 @@ namespace {
 			Vector3r way;
 			if (!wayOut(beside.plane, face.plane, way)) return;
 			const Vector3r edge = covered.middle + (beside.plane.offset - beside.plane.normal.dot(covered.middle)) * way;
-			rises               = solid.risesAt(face, beside, edge, covered.middle);
+			rises               = solid.risesAt(face, beside, edge, std::numeric_limits<Real>::infinity(), covered.middle);
 		});
 		return !rises;
 	}

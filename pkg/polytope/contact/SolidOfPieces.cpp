@@ -77,14 +77,16 @@ bool SolidOfPieces::covers(const FaceOfPiece& face, const std::vector<Vector3r>&
 	});
 }
 
-bool SolidOfPieces::risesAt(const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Vector3r& middle) const
+bool SolidOfPieces::risesAt(
+        const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Real& length, const Vector3r& middle) const
 {
 	Vector3r along;
 	if (!wayOut(face.plane, beside.plane, along)) return false;
-	const Vector3r step = Real(polytope::tolerance::flushOfDepth) * (middle - edge);
+	const Real     flush = Real(polytope::tolerance::flushOfDepth);
+	const Vector3r in = middle - edge, up = flush * ball_ * math::max(Real(1), Real(flush * in.norm() / length)) * in.normalized();
 	return std::any_of(std::begin(polytope::tolerance::closeBy), std::end(polytope::tolerance::closeBy), [&](const double& way) {
 		const Vector3r out = edge + offFace(Real(way) * ball_) * along;
-		return goesThrough(out + step, out - step, false);
+		return goesThrough(out + up, out - up, false);
 	});
 }
 

@@ -40,9 +40,12 @@ public:
 	/// Whether other pieces fill the place outside of a face, which the overlap has between these corners, from corner to corner.
 	bool covers(const FaceOfPiece& face, const std::vector<Vector3r>& corners, const Vector3r& middle) const;
 
-	/// Whether one of them rises above the face `beside`, at a point on the edge with it of a covered face with such a middle. It is looked for
-	/// along that face, and so at one height above it.
-	bool risesAt(const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Vector3r& middle) const;
+	/// Whether one of them rises above the face `beside`, at the middle `edge` of the edge with it of a covered face with such a middle. It is looked
+	/// for along that face, and so at one height above it. That is a part of the ball's radius, not of the face's height: whether a hollow edge counts is
+	/// a matter of its angle, and does not change as a body sinks in. It is more at the ends of a long face, whose edges there are short; `length`: of the
+	/// edge, without end where there is a corner alone.
+	bool risesAt(
+	        const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Real& length, const Vector3r& middle) const;
 
 	/// The overlap goes on beyond this face, within the faces of the other pieces that do not cut the overlap of the two
 	/// pieces, which has such corners.
