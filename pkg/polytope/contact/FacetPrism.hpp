@@ -46,12 +46,11 @@ public:
 	Prism prism(int side, const Real& depth) const;
 
 private:
-	struct Other {
+	struct OfMesh {
 		Vector3r           corner[3];
-		std::array<int, 3> own; ///< the facet's corner that this one is, or −1
+		std::array<int, 3> own; ///< the first facet's corner that this one is, or −1
 	};
 
-	using Corners = std::array<Vector3r, 3>;
 	/// A facet of the mesh beyond the edge of another one: its number, or that of all for none; whether its normal (1) or the opposite (−1) is on the side
 	/// +1; and its tilt over that one's plane, towards that side [rad].
 	struct Beyond {
@@ -61,15 +60,15 @@ private:
 	};
 
 	Beyond   beyond(std::size_t facet, int edge, int turn) const;
-	void     addTilt(const Other& other);
+	void     addTilt(const OfMesh& other);
 	void     addCutsAt(int corner, const Vector3r& up, Prism& prism) const;
 	Vector3r outward(int edge) const;
 
-	const Vector3r*       corner_[3];
-	Vector3r              normal_; ///< on side +1
-	Real                  size_;   ///< longest edge
-	std::vector<Other>&   others_;
-	std::vector<Corners>& mesh_; ///< all facets that the body may touch, first this one
+	const Vector3r& corner(int k) const { return mesh_.front().corner[k]; }
+
+	std::vector<OfMesh>& mesh_;   ///< all facets that the body may touch, first this one
+	Vector3r             normal_; ///< on side +1
+	Real                 size_;   ///< longest edge
 	/// Angles of the neighbours beyond each edge over the facet's plane, towards side +1 [rad]: the lowest and the highest.
 	Real lowest_[3], highest_[3];
 	bool known_[3] = { false, false, false };
