@@ -9,7 +9,8 @@ set(plugin_headers
 	contact/ContactForce.hpp # steps of a law
 	contact/MarginContact.hpp # contacts of bodies with margins
 	contact/MixedPairs.hpp # contacts with YADE's own shapes
-	contact/PolytopeGeom.hpp # a contact, and the functor that others derive from
+	contact/PolytopeGeom.hpp # a contact
+	contact/PolytopeGeomFunctor.hpp # what others derive from that make contacts
 	host/FlatArchive.hpp # POLYTOPE_SAVED_FLAT
 	material/JointLaws.hpp # normal laws of joints
 	material/StiffnessRules.hpp # what a functor of physics tells
@@ -18,7 +19,7 @@ set(plugin_headers
 	shape/ShapeFamily.hpp # what a shape of another base tells
 	shape/WallShape.hpp # a wall as a half-space
 	# which those include
-	bond/BondsOfScene.hpp # PolytopeGeom.hpp: members of the functor and of the contact
+	bond/BondsOfScene.hpp # members of the functor and of the contact
 	contact/ContactCounters.hpp
 	contact/StoredOutline.hpp
 	contact/StoredVertices.hpp

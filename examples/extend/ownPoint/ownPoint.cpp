@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // A contact point of one's own: two polytopes meet as always, but their force acts on the first body's surface.
-#include <yade-polytope/contact/PolytopeGeom.hpp>
+#include <yade-polytope/contact/PolytopeGeomFunctor.hpp>
 
 #include <polytope/shape/ClosestPoint.hpp>
 

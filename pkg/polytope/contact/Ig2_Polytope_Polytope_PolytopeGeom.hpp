@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/PolytopeGeom.hpp"
+#include "contact/PolytopeGeomFunctor.hpp"
 #include "host/CheckedAttributes.hpp"
 
 namespace yade {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/PolytopeGeom.hpp"
+#include "contact/PolytopeGeomFunctor.hpp"
 #include "shape/ShapeFamily.hpp"
 
 /// Contacts of bodies that are larger than their cores by a ball: of rounded polyhedra and segments with their like, with polytopes,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/PolytopeGeom.hpp"
+#include "contact/PolytopeGeomFunctor.hpp"
 
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Facet.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/PolytopeGeom.hpp"
+#include "contact/PolytopeGeomFunctor.hpp"
 
 #include <src/program/PlaneCode.hpp>
 #include <src/shape/CheckedNumbers.hpp>

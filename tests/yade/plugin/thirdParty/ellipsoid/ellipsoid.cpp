@@ -2,7 +2,7 @@
 //
 // Ellipsoids: planes that touch them all around, for boxes, drawing and where two bodies meet, and the true surface for mass and depth. A geometry of its own keeps the radius
 // of curvature.
-#include <yade-polytope/contact/PolytopeGeom.hpp>
+#include <yade-polytope/contact/PolytopeGeomFunctor.hpp>
 
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
