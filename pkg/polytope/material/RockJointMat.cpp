@@ -75,6 +75,7 @@ void RockJointMat::refuseValues() const
 	const auto        bears     = [](Real v) { return v >= 0 && math::isfinite(v); };
 	// in wider precisions, too, Python's pi/2 is a double, and below the true one
 	const auto angle = [](Real v) { return v >= 0 && v < double(Mathr::HALF_PI); };
+	requireValue(positive(density), "density", density, "positive and finite [kg/m3]");
 	requireValue(positive(normalStiffness), "normalStiffness", normalStiffness, "positive and finite [Pa/m, or N/m for each contact]");
 	requireValue(positive(shearStiffness), "shearStiffness", shearStiffness, "positive and finite [Pa/m, or N/m for each contact]");
 	requireValue(angle(frictionAngle), "frictionAngle", frictionAngle, angleRule);

@@ -4,7 +4,7 @@
 The core's tests compare force and torque with the energy's derivative; here the law, the integrator and the scene are the subject.
 """
 
-from math import atan, cos, sqrt
+from math import atan, cos, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -46,6 +46,41 @@ def testOnePairKnowsItsEnergy():
 	assert other.inContact and other.depth == pytest.approx(paper.depth, rel=0.02)  # face on face: the overlap
 	assert other.energyPerStiffness == pytest.approx(other.depth**2 / 2, rel=5e-3)
 	assert tuple(other.normal) == pytest.approx((0, 0, 1), abs=1e-4)
+
+
+def forceBeyondEdge(corners, wedge):
+	"""Of a prism that stands on the edge x = 0 and reaches over the floor so far; over the distance of its face's centre from the edge."""
+	tilt = 1e-4
+	joint()
+	floor = polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True)
+	centre = -max(vertex[0] for vertex in polytope.prism(corners, 2, center=(0, 0, 0)).shape.vertices)
+	turn = Quaternion(Vector3(0, 1, 0), tilt)
+	# the edge, tilt * wedge deep
+	standing = polytope.prism(corners, 2, center=Vector3(0, 0, -tilt * wedge) + turn * Vector3(centre, 0, 1), orientation=turn)
+	result = polytope.contact(floor, standing, contactModel='spring')
+	assert result.inContact
+	return (float(result.point[0]) + float(result.point[2]) * -float(result.normal[0]) / float(result.normal[2])) / abs(centre)
+
+
+def polygonOnEdge(number):
+	"""Regular, with a side on x = 0."""
+	middle = cos(pi / number)
+	return [(cos(pi * (2 * k + 1) / number) - middle, sin(pi * (2 * k + 1) / number)) for k in range(number)]
+
+
+def trapezoid(width):
+	"""A metre long and wide, so wide on x = 0."""
+	return [(0, -width / 2), (0, width / 2), (-1, 0.5), (-1, -0.5)]
+
+
+@pytest.mark.parametrize(
+	('corners', 'most'),
+	[(trapezoid(1), 0), (polygonOnEdge(6), 0.0395), (polygonOnEdge(8), 0.0296), (polygonOnEdge(12), 0.0155), (trapezoid(0.5), 0.0620), (trapezoid(0.2), 0.0963)],
+)
+def testTheForceOfAFaceThatWidensFromItsEdgeIsBesideIt(corners, most):
+	"""6 W/V of a face that leans is 3 ∫ δ³ dA/∫ δ² dA of its depths δ, which falls as the wedge in contact grows wider; `most` is that integral's."""
+	beyond = [forceBeyondEdge(corners, wedge) for wedge in np.geomspace(0.02, 1, 30) * -min(x for x, _ in corners)]
+	assert max(beyond) == pytest.approx(most, abs=1e-3)
 
 
 # ------------------------------------------------------------------------------------------------------------- collisions

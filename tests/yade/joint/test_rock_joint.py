@@ -96,6 +96,12 @@ def testBadValueIsRefusedAndLeavesTheMaterial(name, value):
 		RockJointMat(**dict(good, **{name: value}))
 
 
+@pytest.mark.parametrize('density', [0, -1, nan, inf])
+def testBadDensityIsRefused(density):
+	with pytest.raises(ValueError, match='^density: must be positive and finite'):
+		RockJointMat(density=density)
+
+
 @pytest.mark.parametrize('name', ['normalDamping', 'shearDamping', 'rockingDamping'])
 @pytest.mark.parametrize('value', [-0.1, nan, inf])
 def testBadDampingIsRefused(name, value):
