@@ -238,6 +238,16 @@ def testPolygonsSlideOutOfTheHopper(runs):
 	assert 5 < through < 72 and min(state.pos[1] for state in free) > -1.3
 
 
+def testForcesOfFlushPiecesAreThoseOfOne(runs):
+	names = runs('flushPieces')
+	one, two, oblique, _, step, corner = names['sums'].values()
+	assert (one[0], one[1]) == pytest.approx((0, 1e6 * (1.5 * 0.1 - 0.1**2 / 2)), abs=1e-3)
+	assert two == pytest.approx(one, abs=1e-3) and oblique == pytest.approx(one, abs=1e-3)
+	assert step[0] == pytest.approx(-1e6 * (0.1**2 - 0.04**2) / 2, abs=1e-3) and corner[0] == pytest.approx(0, abs=1e-3) and corner[1] > 0
+	assert isPicture('output/flushPieces.png')
+
+
+
 def testParaviewsFilesAreThere(runs):
 	runs('paraview', shorter={'in range(40)': 'in range(5)'})
 	for recorder in ('bodies', 'contacts'):
