@@ -12,6 +12,7 @@ import pytest
 from scenes import blockOnFloor, density, joint, loop
 from test_contact_surface import gasOf
 from yade import Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O, Vector3, polytope
+from yade.utils import wall
 
 stiffness = 1e9
 
@@ -102,6 +103,38 @@ def testChangesOfTheStepCostAGasNoMoreThanAConstantStepDoes(model):
 	print(f'{model}: error {changing:.1e}; with velocities corrected at changes {corrected:.1e}; with a constant step {constant:.1e}')
 	assert changing < 2 * constant
 	assert corrected > 0.3 * constant
+
+
+def errorOfPolygonGas(model, safety):
+	"""Largest error of the energy of nine polygons between walls, in 2 s, and of three such gases."""
+	worst = 0
+	for seed in range(1, 4):
+		O.reset()
+		random = np.random.default_rng(seed)
+		perArea = model == 'foundation'
+		joint(normalStiffness=2e8 if perArea else 3e7, frictionAngle=0, stiffnessPerArea=perArea)
+		O.bodies.append([wall(position, axis=axis) for axis in (0, 1) for position in (0, 1.2)])
+		for row, column in itertools.product(range(3), range(3)):
+			sides, turn = random.integers(3, 8), random.uniform(0, 6)
+			corners = [(0.17 * np.cos(turn + 2 * np.pi * k / sides), 0.17 * np.sin(turn + 2 * np.pi * k / sides)) for k in range(sides)]
+			body = polytope.polygon(corners, thickness=0.2, center=(0.2 + 0.4 * column, 0.2 + 0.4 * row, 0))
+			body.state.vel = (*random.normal(0, 0.5, 2), 0)
+			O.bodies.append(body)
+		O.engines = polytope.engines(gravity=(0, 0, 0), damping=0, law=Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0))
+		O.engines[-1].timestepSafetyCoefficient = safety
+		start = polytope.mechanicalEnergy()
+		while O.time < 2:
+			O.run(200, wait=True)
+			worst = max(worst, abs(polytope.mechanicalEnergy() / start - 1))
+	return worst
+
+
+@pytest.mark.parametrize(('model', 'most'), [('foundation', 2e-3), ('spring', 5e-3)])
+def testTheErrorOfAGasOfPolygonsIsOneOfSecondOrder(model, most):
+	"""They meet with the stiffness and the lever arms that the step is made for; for most solids it is on the safe side."""
+	errors = [errorOfPolygonGas(model, safety) for safety in (0.4, 0.2)]
+	print(f'{model}: largest error {errors[0]:.1e}; with half the step {errors[1]:.1e}')
+	assert errors[0] < most and errors[1] < errors[0] / 2
 
 
 def polygonsInABox(seed):
