@@ -22,6 +22,7 @@ here = (
 	'directShear',
 	'drum',
 	'energy',
+	'flushPieces',
 	'funnel',
 	'goodmanBray',
 	'jointNetwork',
