@@ -43,6 +43,12 @@ def change(a, b):
 	return np.array([point, 2 * math.asin(min(normal / 2, 1)), force])
 
 
+def besideOnItsLine(a, b):
+	"""Answer *a* with its point moved along its line of action to beside that of *b*: where on that line it is changes nothing."""
+	point, normal, force = a
+	return np.array([point + (b[0] - point).dot(normal) * normal, normal, force])
+
+
 @dataclasses.dataclass
 class Scan:
 	"""A path in equal steps of t.
