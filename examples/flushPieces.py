@@ -22,16 +22,14 @@ block = [(-0.7, -depth), (0.8, -depth), (0.8, 0.8), (-0.7, 0.8)]
 onItsCorner = [(0, -0.45), (0.8, 0.35), (0, 1.15), (-0.8, 0.35)]
 
 
-def slab(left, right, top=0.0, slant=0.0):
-	"""Whose side at x = 0 is inclined by so much, if it has one there."""
-	at = {0: slant}
-	return [(left - at.get(left, 0), low), (right - at.get(right, 0), low), (right + at.get(right, 0), top), (left + at.get(left, 0), top)]
+def slab(left, right, top=0.0):
+	return [(left, low), (right, low), (right, top), (left, top)]
 
 
 supports = {
 	'one piece': (block, [slab(-1.4, 1.4)]),
 	'two flush pieces: the same force': (block, [slab(-1.4, 0), slab(0, 1.4)]),
-	'cut obliquely: the same force': (block, [slab(-1.4, 0, slant=0.3), slab(0, 1.4, slant=0.3)]),
+	'cut obliquely: the same force': (block, [[(-1.4, low), (-0.3, low), (0.3, 0), (-1.4, 0)], [(-0.3, low), (1.4, low), (1.4, 0), (0.3, 0)]]),
 	'an open joint: counts as closed': (block, [slab(-1.4, 0), slab(0.04, 1.4)]),
 	'a step: the higher side pushes': (block, [slab(-1.4, 0, top=-0.06), slab(0, 1.4)]),
 	'a corner that points inwards': (onItsCorner, [[(-1.4, low), (0, low), (0, -0.1), (-1.4, 0.35)], [(0, low), (1.4, low), (1.4, 0.35), (0, -0.1)]]),

@@ -105,6 +105,10 @@ def testChangesOfTheStepCostAGasNoMoreThanAConstantStepDoes(model):
 	assert corrected > 0.3 * constant
 
 
+def regularCorners(sides, turn, radius):
+	return [(radius * np.cos(angle), radius * np.sin(angle)) for angle in turn + 2 * np.pi * np.arange(sides) / sides]
+
+
 def errorOfPolygonGas(model, safety):
 	"""Largest error of the energy of nine polygons between walls, in 2 s, and of three such gases."""
 	worst = 0
@@ -116,8 +120,7 @@ def errorOfPolygonGas(model, safety):
 		O.bodies.append([wall(position, axis=axis) for axis in (0, 1) for position in (0, 1.2)])
 		for row, column in itertools.product(range(3), range(3)):
 			sides, turn = random.integers(3, 8), random.uniform(0, 6)
-			corners = [(0.17 * np.cos(turn + 2 * np.pi * k / sides), 0.17 * np.sin(turn + 2 * np.pi * k / sides)) for k in range(sides)]
-			body = polytope.polygon(corners, thickness=0.2, center=(0.2 + 0.4 * column, 0.2 + 0.4 * row, 0))
+			body = polytope.polygon(regularCorners(sides, turn, 0.17), thickness=0.2, center=(0.2 + 0.4 * column, 0.2 + 0.4 * row, 0))
 			body.state.vel = (*random.normal(0, 0.5, 2), 0)
 			O.bodies.append(body)
 		O.engines = polytope.engines(gravity=(0, 0, 0), damping=0, law=Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0))
@@ -148,8 +151,7 @@ def polygonsInABox(seed):
 		O.bodies.append(polytope.polygon(corners, fixed=True, thickness=0.2))
 	for row, column in itertools.product(range(6), range(5)):
 		sides, turn = 3 + (row + column) % 4, random.uniform(0, 6)
-		angles = turn + 2 * np.pi * np.arange(sides) / sides
-		corners = [(0.22 * column - 0.45 + 0.1 * np.cos(one), 0.22 * row + 0.15 + 0.1 * np.sin(one)) for one in angles]
+		corners = [(0.22 * column - 0.45 + x, 0.22 * row + 0.15 + y) for x, y in regularCorners(sides, turn, 0.1)]
 		O.bodies.append(polytope.polygon(corners, thickness=0.2))
 	undamped = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0, shearDamping=0, rockingDamping=0)
 	O.engines = polytope.engines(damping=0, law=undamped)
