@@ -101,7 +101,8 @@ struct ContactSettings : ContactOptions {
 	explicit ContactSettings(const ContactOptions& options) : ContactOptions(options) { }
 };
 
-/// What one pair remembers from step to step. Values, no pointers: copied and saved with the interaction. Any value is safe, also of another pair.
+/// What one pair remembers from step to step. Values, no pointers: copied and saved with the interaction. Any value is safe, also of another pair, but
+/// for the pieces of the surface (KeptVertices).
 struct PairMemory {
 	bool               hasBasis = false;         ///< `basis` is known, and, without a point, `weights`
 	bool               hasPoint = false;         ///< `point` and `dualDirection` are known

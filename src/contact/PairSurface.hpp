@@ -60,7 +60,7 @@ POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R
 	KeptVertices* const     kept   = surface.kept;
 	const PairPlanes<R, 3>& planes = near ? near->planes() : all;
 	FeasibleSet<R, W>       vertices(planes, surface.size, set);
-	if (!(near ? vertices.explore(basis) : vertices.recall(*kept, all.first))) return false;
+	if (!(near ? vertices.explore(basis, surface.energy) : vertices.recall(*kept, all.first, surface.energy))) return false;
 	FeasibleSums<R> sums(set, surface.energy, surface.sums);
 	if (surface.on) sums.clip(planes, R(tolerance::pieceBox) * surface.size, spare(planes.total), *surface.on);
 	surface.sums.kept = !near;
@@ -69,6 +69,7 @@ POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R
 	surface.nearest = set.tightPlanes();
 	if (!surface.on) outlineOfVertices<R>(set, surface);
 	if (!near && surface.stiffness && !surface.on) surface.differentiated = sums.differentiate(*surface.stiffness);
+	if (!near && (kept->bytesOfPieces == 0 || kept->ofEnergy != surface.energy)) vertices.keepPieces(*kept);
 	if (near && kept) vertices.keep(*kept, all.first, [near](int row) { return near->rowOfAll(row); });
 	return true;
 }

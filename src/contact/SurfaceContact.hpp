@@ -69,8 +69,9 @@ template <class R, int D> POLYTOPE_INLINE R lineOfAction(const SurfaceLoad<R, D>
 {
 	R left[SurfaceSums<R, D>::turns], arm[SurfaceSums<R, D>::turns] = {};
 	addCross<R, D>(from, load.force, arm);
+	const R inverse = 1 / length;
 	for (int k = 0; k < SurfaceSums<R, D>::turns; ++k)
-		left[k] = (load.moment[k] - arm[k]) / length;
+		left[k] = (load.moment[k] - arm[k]) * inverse;
 	for (int k = 0; k < D; ++k)
 		point[k] = from[k];
 	if constexpr (D == 2) {
@@ -149,8 +150,9 @@ POLYTOPE_INLINE void placeForce(const PairQuery<R, D>& q, const PairSurface<R, D
 	for (int k = 0; k < D && across; ++k)
 		n[k] = force.directed ? dual[k] / norm<R, D>(dual) : R(k == D - 1);
 	const bool pressed = sums.pressure > 0 && (!across || surface.status == SurfaceStatus::Found);
+	const R    inverse = 1 / (pressed ? sums.pressure : R(1));
 	for (int k = 0; k < D; ++k)
-		point[k] = centre[k] = pressed ? sums.centre[k] / sums.pressure : q.x[k];
+		point[k] = centre[k] = pressed ? sums.centre[k] * inverse : q.x[k];
 	if (force.directed && !across) {
 		out.turningArm = lineOfAction<R, D>(load, length, n, centre, point);
 		// where one body pierces the other, pressures cancel and leave a couple, whose line of action is anywhere

@@ -8,15 +8,16 @@
 namespace polytope {
 
 template <class R> struct FeasibleBuffers {
-	static constexpr int mostPlanes = tolerance::feasiblePlanes, mostVertices = tolerance::feasibleVertices,
-	                     mostEdges = 2 * mostVertices, mostPieces = 2 * mostVertices;
-	static constexpr int pieceRows = 16;
+	static constexpr int mostPlanes = tolerance::feasiblePlanes, mostVertices = tolerance::feasibleVertices;
+	// four edges meet in a vertex, three faces in an edge, and there are as many faces as vertices and cells together
+	static constexpr int mostPieces = mostVertices + mostPlanes, mostTriangles = 3 * 2 * mostVertices, pieceHeader = 4;
+	static constexpr int outlineRows = 7;
 
 	/// Whose a plane is: of body 1, of both where planes of both coincide, of body 2, of none that of no pressure. In this order the first of
 	/// two is on body 1's side of a piece between them.
 	enum Owner : std::uint8_t { Body1, Both, Body2, NoBody };
 
-	int planes, vertices, edges;
+	int planes, vertices;
 
 	// of the planes that are tight somewhere, in any order
 	R*    plane; ///< a, d; zero: the plane of no pressure
@@ -28,18 +29,29 @@ template <class R> struct FeasibleBuffers {
 	std::uint64_t mask[mostVertices];    ///< a bit for each tight plane
 	std::uint64_t dropped[mostVertices]; ///< bits of those that are not tight along one of the vertex' edges
 
-	std::uint8_t edge[mostEdges][2]; ///< vertices
+	// pieces of its surface, one after another (FeasiblePieces.hpp); also those that its energy needs
+	const std::uint8_t* pieces;
+	int                 bytesOfPieces;
+	bool                piecesOfEnergy;
+	std::uint8_t        roomForPieces[pieceHeader * mostPieces + 2 * mostTriangles];
 
 	// of all planes of the pair
 	R*   split; ///< offsets with which no more than four planes meet
 	R*   slack;
 	int* localOf; ///< number among the tight ones, or −1
 
-	R* piece; ///< pieceRows of each pair of planes
+	R* outline; ///< outlineRows for each plane
+
+	/// Whether an edge joins two vertices: they have three planes in common.
+	bool areJoined(int v, int w) const
+	{
+		const std::uint64_t own = mask[v] & ~mask[w];
+		return own != 0 && (own & (own - 1)) == 0;
+	}
 
 	static int numbersNeeded(int total)
 	{
-		return (4 + 4) * mostPlanes + 4 * mostVertices + 2 * (total + padWidth) + pieceRows * mostPieces;
+		return (4 + 4) * mostPlanes + 4 * mostVertices + 2 * (total + padWidth) + outlineRows * mostPlanes;
 	}
 	static int indicesNeeded(int total) { return total + padWidth; }
 
@@ -52,7 +64,7 @@ template <class R> struct FeasibleBuffers {
 		point   = take(numbers, 4 * mostVertices);
 		split   = take(numbers, total + padWidth);
 		slack   = take(numbers, total + padWidth);
-		piece   = take(numbers, pieceRows * mostPieces);
+		outline = take(numbers, outlineRows * mostPlanes);
 		localOf = indices;
 	}
 

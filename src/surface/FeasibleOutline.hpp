@@ -24,31 +24,35 @@ template <class R> POLYTOPE_INLINE bool mainPlane(const SurfaceSums<R, 3>& sums,
 
 template <class R> class FeasibleOutline {
 public:
-	/// Writes over what FeasibleSums has of the pieces.
-	POLYTOPE_INLINE FeasibleOutline(const FeasibleBuffers<R>& set, const R* normal, const R* place) : corner_(set.piece)
+	POLYTOPE_INLINE FeasibleOutline(const FeasibleBuffers<R>& set, const R* normal, const R* place) : corner_(set.outline)
 	{
 		const R       level = dot<R, 3>(normal, place);
 		std::uint64_t none  = 0;
-		R             height[FeasibleBuffers<R>::mostVertices];
-		std::uint8_t  where[FeasibleBuffers<R>::mostVertices]; // 0: with pressure, 1: above the plane, 2: below
+		R             height[mostVertices];
+		std::uint8_t  without[2][mostVertices]; // of the vertices without pressure those below the plane, and those above
+		int           count[2] = { 0, 0 };
 		for (int v = 0; v < set.vertices; ++v) {
-			const int  last = set.tight[v][3];
-			const bool free = set.owner[last] == FeasibleBuffers<R>::NoBody;
-			height[v]       = dot<R, 3>(normal, set.point + 4 * v) - level;
-			where[v]        = std::uint8_t(free ? (height[v] >= 0 ? 1 : 2) : 0);
-			none |= std::uint64_t(free) << last;
+			const int last = set.tight[v][3];
+			if (set.owner[last] != FeasibleBuffers<R>::NoBody) continue;
+			height[v]                      = dot<R, 3>(normal, set.point + 4 * v) - level;
+			const bool above               = height[v] >= 0;
+			without[above][count[above]++] = std::uint8_t(v);
+			none                           = std::uint64_t(1) << last;
 		}
-		std::uint8_t cut[FeasibleBuffers<R>::mostEdges];
+		std::uint8_t cut[3 * mostVertices / 2 + 1][2]; // one more than there are edges without pressure
 		int          cuts = 0;
-		for (int e = 0; e < set.edges; ++e) {
-			cut[cuts] = std::uint8_t(e);
-			cuts += (where[set.edge[e][0]] | where[set.edge[e][1]]) == 3;
-		}
+		for (int i = 0; i < count[0]; ++i)
+			for (int j = 0; j < count[1]; ++j) {
+				const int v = without[0][i], w = without[1][j];
+				cut[cuts][0] = std::uint8_t(v);
+				cut[cuts][1] = std::uint8_t(w);
+				cuts += set.areJoined(v, w);
+			}
 		if (cuts < 3 || cuts > most) return;
 		std::memset(on_, nothing, sizeof on_);
 		bool twice = true; // each plane has two corners or none
 		for (int c = 0; c < cuts; ++c) {
-			const int v = set.edge[cut[c]][0], w = set.edge[cut[c]][1];
+			const int v = cut[c][0], w = cut[c][1];
 			const R   part = height[v] / (height[v] - height[w]);
 			const R * p = set.point + 4 * v, *q = set.point + 4 * w;
 			for (int m = 0; m < 3; ++m)
@@ -72,9 +76,9 @@ public:
 	int      stride() const { return turned_ ? -3 : 3; }
 
 private:
-	static constexpr int          most    = FeasibleBuffers<R>::mostPlanes;
+	static constexpr int          most = FeasibleBuffers<R>::mostPlanes, mostVertices = FeasibleBuffers<R>::mostVertices;
 	static constexpr std::uint8_t nothing = 255;
-	static_assert(7 * most <= FeasibleBuffers<R>::pieceRows * FeasibleBuffers<R>::mostPieces);
+	static_assert(7 * most <= FeasibleBuffers<R>::outlineRows * FeasibleBuffers<R>::mostPlanes);
 
 	POLYTOPE_INLINE void goAround(int cuts, const R* normal)
 	{

@@ -41,11 +41,8 @@ private:
 	/// The vertex next to `here` along an edge on which both planes are tight, other than `last`.
 	int after(int here, int last, std::uint64_t both) const
 	{
-		for (int e = 0; e < buffers_.edges; ++e) {
-			const std::uint8_t* const edge = buffers_.edge[e];
-			const int                 end  = edge[0] == here ? edge[1] : edge[1] == here ? edge[0] : -1;
-			if (end >= 0 && end != last && (buffers_.mask[end] & both) == both) return end;
-		}
+		for (int v = 0; v < buffers_.vertices; ++v)
+			if (v != last && (buffers_.mask[v] & both) == both && buffers_.areJoined(here, v)) return v;
 		return -1;
 	}
 

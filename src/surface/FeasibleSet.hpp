@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "surface/FeasiblePieces.hpp"
 #include "surface/FeasibleVertices.hpp"
 #include "surface/FlushPlanes.hpp"
 
@@ -30,7 +31,7 @@ public:
 	}
 
 	/// Finds the vertices with the tight planes of the last step. False if they do not make this step's vertices.
-	POLYTOPE_INLINE bool recall(const KeptVertices& kept, int rowsOfBody1)
+	POLYTOPE_INLINE bool recall(const KeptVertices& kept, int rowsOfBody1, bool energy)
 	{
 		const int planes = kept.planes, vertices = kept.vertices;
 		if (vertices < 5 || vertices > Buffers::mostVertices || planes < 5 || planes > Buffers::mostPlanes) return false;
@@ -39,46 +40,32 @@ public:
 			if (row < 0) return false;
 			vertices_.setPlane(k, row);
 		}
-		std::uint64_t noPressure = 0, named = 0, misplaced = 0;
-		for (int k = 0; k < planes; ++k)
-			if (buffers_.owner[k] == Buffers::NoBody) noPressure |= bit(k);
-		for (int v = 0; v < vertices; ++v) {
-			const std::array<std::uint8_t, 4>& tight = kept.tight[std::size_t(v)];
-			const std::uint64_t three = bit(tight[0] & lastPlane) | bit(tight[1] & lastPlane) | bit(tight[2] & lastPlane);
-			if ((tight[0] | tight[1] | tight[2] | tight[3]) > lastPlane) return false;
-			for (int k = 0; k < 4; ++k)
-				buffers_.tight[v][k] = tight[std::size_t(k)];
-			buffers_.mask[v]    = three | bit(tight[3]);
-			buffers_.dropped[v] = 0;
-			named |= buffers_.mask[v];
-			misplaced |= three & noPressure;
-		}
-		bool right        = misplaced == 0 && (named >> (planes - 1)) <= 1 && !(buffers_.mask[0] & noPressure);
 		buffers_.planes   = planes;
 		buffers_.vertices = vertices;
-		buffers_.edges    = 2 * vertices;
-		for (int e = 0; e < buffers_.edges; ++e) {
-			const int v = kept.edge[std::size_t(e)][0], w = kept.edge[std::size_t(e)][1];
-			if (v >= vertices || w >= vertices) return false;
-			buffers_.edge[e][0]     = std::uint8_t(v);
-			buffers_.edge[e][1]     = std::uint8_t(w);
-			const std::uint64_t one = buffers_.mask[v] & ~buffers_.mask[w], other = buffers_.mask[w] & ~buffers_.mask[v];
-			right = right && one != 0 && (one & (one - 1)) == 0;
-			buffers_.dropped[v] |= one;
-			buffers_.dropped[w] |= other;
-		}
-		return right && everyEdgeOnce() && vertices_.placeAll() && (kept.shared == 0 || flush_.shareCoinciding() == kept.shared);
+		std::memcpy(buffers_.tight, kept.tight.data(), 4 * std::size_t(vertices));
+		const bool known = kept.bytesOfPieces > 0 && kept.ofEnergy == energy;
+		if (!known && !isPolytope()) return false;
+		for (int v = 0; v < vertices; ++v)
+			buffers_.mask[v] = maskOf(buffers_.tight[v]);
+		if (!vertices_.placeAll() || (kept.shared != 0 && flush_.shareCoinciding() != kept.shared)) return false;
+		if (known) {
+			buffers_.pieces         = kept.piece.data();
+			buffers_.bytesOfPieces  = kept.bytesOfPieces;
+			buffers_.piecesOfEnergy = energy;
+		} else FeasiblePieces<R>(buffers_, energy);
+		return true;
 	}
 
 	/// What recall() needs in the next step; `rowOfAll`: gives a row's number among all planes of the pair.
 	template <class Rows> POLYTOPE_INLINE void keep(KeptVertices& kept, int rowsOfBody1, const Rows& rowOfAll) const
 	{
-		kept.exchanged = kept.shared = 0;
-		kept.planes                  = std::uint8_t(buffers_.planes);
-		kept.vertices                = std::uint8_t(buffers_.vertices);
+		kept.exchanged = 0;
+		kept.shared    = 0;
+		kept.planes    = std::uint8_t(buffers_.planes);
+		kept.vertices  = std::uint8_t(buffers_.vertices);
 		for (int k = 0; k < buffers_.planes; ++k) {
 			const bool none = buffers_.owner[k] == Buffers::NoBody;
-			kept.shared += buffers_.owner[k] == Buffers::Both;
+			if (buffers_.owner[k] == Buffers::Both) kept.shared |= bit(k);
 			const int name
 			        = none ? int(KeptVertices::noPressure) : KeptVertices::name(rowOfAll(buffers_.rowOf[k]), rowsOfBody1);
 			if (name < 0) kept.vertices = 0;
@@ -87,15 +74,22 @@ public:
 		for (int v = 0; v < buffers_.vertices; ++v)
 			for (int k = 0; k < 4; ++k)
 				kept.tight[std::size_t(v)][std::size_t(k)] = buffers_.tight[v][k];
-		for (int e = 0; e < buffers_.edges; ++e)
-			for (int k = 0; k < 2; ++k)
-				kept.edge[std::size_t(e)][std::size_t(k)] = buffers_.edge[e][k];
+		keepPieces(kept);
+	}
+
+	/// Of more than there is room for none are kept.
+	POLYTOPE_INLINE void keepPieces(KeptVertices& kept) const
+	{
+		const bool fit     = buffers_.bytesOfPieces <= KeptVertices::mostBytes;
+		kept.bytesOfPieces = std::uint8_t(fit ? buffers_.bytesOfPieces : 0);
+		kept.ofEnergy      = buffers_.piecesOfEnergy;
+		std::memcpy(kept.piece.data(), buffers_.pieces, kept.bytesOfPieces);
 	}
 
 	/// Finds the vertices, beginning with the one at which these planes are tight. False if the set is not simple.
-	POLYTOPE_INLINE bool explore(const int* basis)
+	POLYTOPE_INLINE bool explore(const int* basis, bool energy)
 	{
-		buffers_.planes = buffers_.edges = 0;
+		buffers_.planes = 0;
 		for (int k = 0; k <= planes_.total; ++k)
 			buffers_.localOf[k] = -1;
 		for (int k = 0; k < planes_.total; ++k)
@@ -114,7 +108,9 @@ public:
 		for (int k = 0; k < buffers_.planes; ++k)
 			vertices_.setPlane(k, buffers_.rowOf[k]);
 		if (twins) flush_.shareCoinciding();
-		return buffers_.vertices > 4 && everyEdgeOnce() && vertices_.placeAll();
+		if (buffers_.vertices < 5 || !everyEdgeEnds() || !vertices_.placeAll()) return false;
+		FeasiblePieces<R>(buffers_, energy);
+		return true;
 	}
 
 	/// s of the program's optimum, which is one of the vertices.
@@ -130,9 +126,44 @@ private:
 
 	static std::uint64_t bit(int plane) { return std::uint64_t(1) << plane; }
 
-	POLYTOPE_INLINE bool everyEdgeOnce() const
+	static POLYTOPE_INLINE std::uint64_t maskOf(const std::uint8_t* tight)
 	{
-		bool all = buffers_.edges == 2 * buffers_.vertices;
+		return bit(tight[0]) | bit(tight[1]) | bit(tight[2]) | bit(tight[3]);
+	}
+
+	/// Whether the vertices, whatever they are, are joined as those of a polytope: on each edge there are two of them.
+	POLYTOPE_APART bool isPolytope()
+	{
+		std::uint64_t noPressure = 0, named = 0, misplaced = 0;
+		bool          four = true;
+		for (int k = 0; k < buffers_.planes; ++k)
+			if (buffers_.owner[k] == Buffers::NoBody) noPressure |= bit(k);
+		for (int v = 0; v < buffers_.vertices; ++v) {
+			const std::uint8_t* const tight = buffers_.tight[v];
+			if ((tight[0] | tight[1] | tight[2] | tight[3]) > lastPlane) return false;
+			buffers_.mask[v]    = maskOf(tight);
+			buffers_.dropped[v] = 0;
+			four                = four && __builtin_popcountll(buffers_.mask[v]) == 4;
+			named |= buffers_.mask[v];
+			misplaced |= (bit(tight[0]) | bit(tight[1]) | bit(tight[2])) & noPressure;
+		}
+		bool right = four && misplaced == 0 && (named >> (buffers_.planes - 1)) <= 1 && !(buffers_.mask[0] & noPressure);
+		for (int v = 1; v < buffers_.vertices; ++v)
+			for (int w = 0; w < v; ++w) {
+				if (!buffers_.areJoined(v, w)) continue;
+				const std::uint64_t one   = buffers_.mask[v] & ~buffers_.mask[w],
+				                    other = buffers_.mask[w] & ~buffers_.mask[v];
+				right                     = right && ((buffers_.dropped[v] & one) | (buffers_.dropped[w] & other)) == 0;
+				buffers_.dropped[v] |= one;
+				buffers_.dropped[w] |= other;
+			}
+		return right && everyEdgeEnds();
+	}
+
+	/// Each vertex' four edges end in another.
+	POLYTOPE_INLINE bool everyEdgeEnds() const
+	{
+		bool all = true;
 		for (int v = 0; v < buffers_.vertices; ++v)
 			all = all && buffers_.dropped[v] == buffers_.mask[v];
 		return all;
@@ -166,7 +197,7 @@ private:
 		std::uint8_t* const tight = buffers_.tight[v];
 		for (int k = 0; k < 3; ++k)
 			if (buffers_.owner[tight[k]] == Buffers::NoBody) std::swap(tight[k], tight[3]);
-		buffers_.mask[v]    = bit(tight[0]) | bit(tight[1]) | bit(tight[2]) | bit(tight[3]);
+		buffers_.mask[v]    = maskOf(tight);
 		buffers_.dropped[v] = 0;
 	}
 
@@ -281,7 +312,7 @@ private:
 		int                 w = 0;
 		while (w < buffers_.vertices && buffers_.mask[w] != mask)
 			++w;
-		if (w == v || w == Buffers::mostVertices || buffers_.edges == Buffers::mostEdges) return false;
+		if (w == v || w == Buffers::mostVertices) return false;
 		if (w == buffers_.vertices) {
 			++buffers_.vertices;
 			for (int k = 0; k < 4; ++k)
@@ -291,9 +322,6 @@ private:
 		if (buffers_.dropped[w] & bit(next)) return false;
 		buffers_.dropped[w] |= bit(next);
 		buffers_.dropped[v] |= left;
-		std::uint8_t* const edge = buffers_.edge[buffers_.edges++];
-		edge[0]                  = std::uint8_t(v);
-		edge[1]                  = std::uint8_t(w);
 		return true;
 	}
 

@@ -29,9 +29,10 @@ public:
 		const bool no     = row == none();
 		buffers_.rowOf[k] = row;
 		buffers_.owner[k] = no ? Buffers::NoBody : row >= planes_.first ? Buffers::Body2 : Buffers::Body1;
-		for (int m = 0; m < 3; ++m)
-			buffers_.plane[4 * k + m] = no ? R(0) : planes_.normal[m][row];
-		buffers_.plane[4 * k + 3] = no ? R(0) : planes_.offset[row];
+		const Four plane  = no
+		         ? broadcast<R, 4>(R(0))
+		         : four<R>(planes_.normal[0][row], planes_.normal[1][row], planes_.normal[2][row], planes_.offset[row]);
+		store<R, 4>(buffers_.plane + 4 * k, plane);
 	}
 
 	static POLYTOPE_INLINE R dotOf3(const Four& a, const Four& b)

@@ -42,18 +42,18 @@ public:
 		return twin < 0 ? row : twin;
 	}
 
-	/// Gives planes that coincide to both bodies, and returns how many of the tight ones do.
-	POLYTOPE_APART int shareCoinciding()
+	/// Gives planes that coincide to both bodies, and returns which of the tight ones do, a bit for each.
+	POLYTOPE_APART std::uint64_t shareCoinciding()
 	{
-		int count = 0;
+		std::uint64_t shared = 0;
 		for (int k = 0; k < buffers_.planes; ++k) {
 			if (buffers_.owner[k] == Buffers::NoBody) continue;
 			const int other = buffers_.owner[k] == Buffers::Body1;
 			if (twinAmong(other, buffers_.plane + 4 * k, R(tolerance::twinPlanes)) < 0) continue;
 			buffers_.owner[k] = Buffers::Both;
-			++count;
+			shared |= std::uint64_t(1) << k;
 		}
-		return count;
+		return shared;
 	}
 
 private:

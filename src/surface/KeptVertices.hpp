@@ -7,26 +7,28 @@
 #include <array>
 #include <cstdint>
 
-/// Which planes are tight in the vertices of a pair's last feasible set, and which vertices its edges join. From step to step they seldom
-/// change: then FeasibleSet::recall() has the contact surface without looking for it.
+/// Which planes are tight in the vertices of a pair's last feasible set, and the pieces of its surface. From step to step they seldom change: then FeasibleSet::recall() has the contact surface without looking for it.
 namespace polytope {
 
-/// Values, no pointers: copied and saved with the interaction. Any value is safe.
+/// Values, no pointers: copied and saved with the interaction. Any value without pieces is safe; pieces are taken as they are, so they are not
+/// saved, but made again.
 struct KeptVertices {
 	static constexpr int mostPlanes = tolerance::feasiblePlanes, mostVertices = tolerance::feasibleVertices, noPressure = 65535,
-	                     mostOfBody = 32767;
+	                     mostOfBody = 32767, mostBytes = 255;
 
-	std::uint8_t planes    = 0; ///< that are tight somewhere
-	std::uint8_t vertices  = 0; ///< 0: nothing is kept; of edges there are twice as many
-	std::uint8_t exchanged = 0; ///< whether the bodies are in the other order than they were then
-	std::uint8_t shared    = 0; ///< number of those planes with which one of the other body coincides
+	std::uint8_t  planes        = 0; ///< that are tight somewhere
+	std::uint8_t  vertices      = 0; ///< 0: nothing is kept
+	std::uint8_t  exchanged     = 0; ///< whether the bodies are in the other order than they were then
+	std::uint8_t  ofEnergy      = 0; ///< whether the pieces that the energy needs are there, too
+	std::uint8_t  bytesOfPieces = 0; ///< 0: the pieces are not known
+	std::uint64_t shared        = 0; ///< a bit for each of those planes with which one of the other body coincides
 
 	/// Codes of planes (PlaneCode.hpp), or noPressure.
 	std::array<std::uint16_t, mostPlanes> plane;
 	/// Places of four planes in that list; the plane of no pressure comes last.
 	std::array<std::array<std::uint8_t, 4>, mostVertices> tight;
-	/// The two vertices of each edge.
-	std::array<std::array<std::uint8_t, 2>, 2 * mostVertices> edge;
+	/// Pieces of the surface (FeasiblePieces.hpp).
+	std::array<std::uint8_t, mostBytes> piece;
 
 	/// Row of a plane among all of a pair, that of no pressure being `total`; −1 if there is none.
 	int row(int k, int rowsOfBody1, int total) const

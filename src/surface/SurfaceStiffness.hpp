@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "surface/FeasibleBuffers.hpp"
+#include "surface/FeasiblePieces.hpp"
 #include "surface/SurfaceSums.hpp"
 
 #include <cmath>
@@ -31,23 +31,22 @@ template <class R> struct SurfaceStiffness {
 				force[i][j] = deeper[i][j] = 0;
 	}
 
-	/// Adds the piece between planes i of body 1 and j of body 2, of which `first` is a vertex and so much is between the bodies.
+	/// Adds a piece between a plane of body 1 and one of body 2, of which so much is between the bodies.
 	///
 	/// Faces of both bodies that are nearly in line meet in a piece that runs away as they move: its derivative says nothing of what it will be. It is left
 	/// out, for the pressure on it is of the order of depth over size.
-	POLYTOPE_INLINE void add(const FeasibleBuffers<R>& set, int i, int j, int first, R share)
+	POLYTOPE_INLINE void add(const FeasibleBuffers<R>& set, const FeasiblePiece& piece, R share)
 	{
-		Moments             plain, weighted;
-		const std::uint64_t both = std::uint64_t(1) << i | std::uint64_t(1) << j;
-		for (int e = 0; e < set.edges; ++e) {
-			const int v = set.edge[e][0], w = set.edge[e][1];
-			if ((set.mask[v] & set.mask[w] & both) != both) continue;
-			reach(set.point + 4 * v);
-			reach(set.point + 4 * w);
-			if (v != first && w != first)
-				addTriangle(set.point + 4 * first, set.point + 4 * v, set.point + 4 * w, plain, weighted);
+		Moments        plain, weighted;
+		const R* const first = set.point + 4 * piece.first;
+		reach(first);
+		for (int t = 0; t < piece.triangles; ++t) {
+			const R *const v = set.point + 4 * piece.ends[2 * t], *const w = set.point + 4 * piece.ends[2 * t + 1];
+			reach(v);
+			reach(w);
+			addTriangle(first, v, w, plain, weighted);
 		}
-		const R *const one = set.plane + 4 * i, *const other = set.plane + 4 * j;
+		const R *const one = set.plane + 4 * piece.i, *const other = set.plane + 4 * piece.j;
 		R between[3];
 		for (int k = 0; k < 3; ++k)
 			between[k] = one[k] - other[k];

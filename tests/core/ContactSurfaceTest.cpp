@@ -557,7 +557,7 @@ TEST(ContactSurface, BuffersAreWithinTheirMemoryAndApart)
 		const Set set(total, numbers.data(), indices.data());
 		expectApart<Real>(numbers.data(), int(numbers.size()),
 		        { { set.plane, 4 * Set::mostPlanes }, { set.point, 4 * Set::mostVertices }, { set.split, total + padWidth },
-		                { set.slack, total + padWidth }, { set.piece, Set::pieceRows * Set::mostPieces } });
+		                { set.slack, total + padWidth }, { set.outline, Set::outlineRows * Set::mostPlanes } });
 		EXPECT_GE(Set::indicesNeeded(total), total + 1);
 		// the copy of the tight planes is on none of them
 		FeasibleBuffers<Real> full(total, numbers.data(), indices.data());

@@ -37,7 +37,7 @@ struct BothOutlines {
 		std::vector<int>         indices(std::size_t(Set::indicesNeeded(planes.total)), -77);
 		Set                      buffers(planes.total, numbers.data(), indices.data());
 		FeasibleSet<Real, width> set(planes, pair.size(), buffers);
-		if (!set.explore(basis.plane)) return;
+		if (!set.explore(basis.plane, false)) return;
 		SurfaceSums<Real, 3> sums;
 		FeasibleSums<Real>   sum(buffers, false, sums);
 		Real                 normal[3], place[3];

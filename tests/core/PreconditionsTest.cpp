@@ -150,7 +150,8 @@ TEST(Preconditions, AQueryEndsWhateverTheMatrix)
 	}
 }
 
-/// Bytes at random, in part those of a true memory: no crash (also under sanitizers), and the depth of a query without memory.
+/// Bytes at random, in part those of a true memory, without pieces, as from a file: no crash (also under sanitizers), and the depth of a
+/// query without memory.
 TEST(Preconditions, AnyMemoryIsSafe)
 {
 	std::mt19937_64 random(731);
@@ -168,6 +169,7 @@ TEST(Preconditions, AnyMemoryIsSafe)
 		auto* const   at    = reinterpret_cast<unsigned char*>(&kept);
 		for (int k = 0; k < bytes; ++k)
 			at[random() % (trial % 3 ? 64 : sizeof kept)] = static_cast<unsigned char>(random());
+		kept.bytesOfPieces = 0;
 		if (trial % 4 == 0)
 			for (int& code : memory.basis)
 				code = int(random() % 64) - 8;

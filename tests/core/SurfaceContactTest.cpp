@@ -592,6 +592,47 @@ TEST(SurfaceContact, OfCubesInLineIsKept)
 		}
 }
 
+/// Those of a file, which has none, and of a step that has begun to ask for the energy, or no longer does.
+TEST(SurfaceContact, PiecesThatAreKeptAreThoseMadeAgain)
+{
+	std::mt19937_64 random(81);
+	const Shapes    shapes = randomShapes(30, random, 3, -1);
+	int             kept   = 0;
+	for (int trial = 0; trial < 300; ++trial) {
+		SCOPED_TRACE(trial);
+		Pair            pair     = randomPair(shapes, random);
+		ContactSettings settings = with(ContactModel::Foundation);
+		settings.energy          = trial % 2 == 0;
+		PairMemory memory;
+		if (!query(pair, settings, &memory).inContact || memory.surface.bytesOfPieces == 0) continue; // large sets have none
+		pair.centre2 += Vector3::Constant(1e-6 * pair.size());
+		PairMemory          withPieces = memory, without = memory, other = memory;
+		const ContactResult warm = query(pair, settings, &withPieces);
+		if (!warm.surfaceKept) continue;
+		++kept;
+		without.surface.bytesOfPieces = 0;
+		for (int step = 0; step < 2; ++step) {
+			const ContactResult again = query(pair, settings, &without);
+			EXPECT_TRUE(again.surfaceKept);
+			EXPECT_EQ(again.point, warm.point);
+			EXPECT_EQ(again.normal, warm.normal);
+			EXPECT_EQ(again.depth, warm.depth);
+			EXPECT_EQ(again.area, warm.area);
+			EXPECT_EQ(again.energy, warm.energy);
+			EXPECT_EQ(without.surface.bytesOfPieces, withPieces.surface.bytesOfPieces);
+			without = memory;
+		}
+		for (int step = 0; step < 2; ++step) {
+			settings.energy           = !settings.energy;
+			const ContactResult again = query(pair, settings, &other);
+			EXPECT_TRUE(again.surfaceKept);
+			EXPECT_EQ(other.surface.ofEnergy, settings.energy);
+			expectSame(pair, again, query(pair, settings), ContactModel::Foundation);
+		}
+	}
+	EXPECT_GT(kept, 100);
+}
+
 TEST(SurfaceContact, AnyKeptSurfaceIsAGoodEnoughStart)
 {
 	std::mt19937_64 random(80);
@@ -613,9 +654,7 @@ TEST(SurfaceContact, AnyKeptSurfaceIsAGoodEnoughStart)
 				for (auto& vertex : memory.surface.tight)
 					for (auto& plane : vertex)
 						plane = std::uint8_t(likely ? random() % 16 : random());
-				for (auto& edge : memory.surface.edge)
-					for (auto& vertex : edge)
-						vertex = std::uint8_t(likely ? random() % 16 : random());
+				memory.surface.bytesOfPieces = 0; // they are not saved
 			}
 			memory.surface.exchanged = std::uint8_t(random() % 2);
 			memory.surface.shared    = std::uint8_t(random() % 3);

@@ -79,7 +79,7 @@ private:
 			std::vector<int>         indices(std::size_t(FeasibleBuffers<Real>::indicesNeeded(all.total)), -77);
 			FeasibleBuffers<Real>    buffers(all.total, numbers.data(), indices.data());
 			FeasibleSet<Real, width> set(all, size, buffers);
-			if (!set.explore(basis)) return;
+			if (!set.explore(basis, true)) return;
 			FeasibleSums<Real> sum(buffers, true, sums);
 			status = sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None;
 		}

@@ -125,6 +125,12 @@ def blockOnFloor(overlap=0.0, half=(0.5, 0.5, 0.5), turn=Quaternion.Identity, **
 	return floor, top
 
 
+def kineticEnergy(state):
+	"""Of a body's velocities, which YADE's integrator has half a step before its positions."""
+	spin = state.ori.conjugate() * state.angVel
+	return (state.mass * state.vel.squaredNorm() + sum(state.inertia[k] * spin[k] ** 2 for k in range(3))) / 2
+
+
 def driven(body, velocity=(0, 0, 0), angularVelocity=(0, 0, 0)):
 	"""Prescribes the body's motion from now on, whatever the forces."""
 	body.state.blockedDOFs = 'xyzXYZ'

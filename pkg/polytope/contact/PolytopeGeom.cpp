@@ -32,7 +32,7 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory, bool sameSurface
 	point1    = memory.point[0];
 	point2    = memory.point[1];
 	direction = hasPoint ? memory.dualDirection : memory.weights;
-	if (!sameSurface) surface.set(memory.surface);
+	if (!sameSurface || surface.lacksPiecesOf(memory.surface)) surface.set(memory.surface);
 }
 
 std::vector<Vector3r> PolytopeGeom::cornersOfOutline() const

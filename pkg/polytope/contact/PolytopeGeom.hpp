@@ -5,7 +5,6 @@
 #include "contact/StoredVertices.hpp"
 #include "host/FlatArchive.hpp"
 #include "host/Seldom.hpp"
-#include "material/StiffnessRules.hpp"
 
 #include <pkg/dem/ScGeom.hpp>
 
@@ -71,6 +70,9 @@ public:
 	using Closure   = Seldom<ClosureOfJoint>;
 	using Linear    = Seldom<LinearOfContact>;
 	using Widening  = Seldom<WideningOfJoint>;
+
+	/// What a contact that is followed (FollowedContact.hpp) reads in each step: all but `surface`, which is last.
+	static std::size_t bytesOfEachStep() { return sizeof(PolytopeGeom) - sizeof(StoredVertices); }
 
 	/// Made when first needed; not saved.
 	Seldom<StandIn> standIn;
@@ -158,8 +160,6 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		        "warm-start point"))
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 2's frame"))
 		((BasisCodes, basis, , (Attr::readonly | Attr::hidden), "The linear program's last basis, 2 × plane + body"))
-		((StoredVertices, surface, , (Attr::readonly | Attr::hidden), "Vertices of the last feasible set of the models that have a surface, "
-		        "by their planes"))
 		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + "
 		        "body"))
 		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "Planes that other pieces of a support have near (src/contact/ContactTypes.hpp)"))
@@ -167,6 +167,8 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		((StoredOutline, outline, , (Attr::readonly | Attr::hidden), "Outline of the contact area, for rock joints between polyhedra"))
 		((Closure, closure, , (Attr::readonly | Attr::hidden), "Normal law of its rock joint; none: a linear spring"))
 		((Widening, widened, , (Attr::readonly | Attr::hidden), "How far the dilation of its rock joint holds the bodies apart"))
+		((StoredVertices, surface, , (Attr::readonly | Attr::hidden), "Vertices of the last feasible set of the models that have a surface, "
+		        "by their planes"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
 		.add_property("outline", &PolytopeGeom::outlineCorners, "Corners of the contact area as seen along the normal, a list of points [m] "

@@ -121,7 +121,8 @@ namespace {
 	{
 		const auto* const geom = exactly<PolytopeGeom>(contact.geom.get());
 		if (!geom) return;
-		prefetch::fetch(geom->linear.get(), sizeof(LinearOfContact));
+		if (const auto* const linear = geom->linear.get()) prefetch::fetch(linear, sizeof(LinearOfContact));
+		else prefetch::fetch(&geom->surface, sizeof(StoredVertices));
 		prefetch::fetch(geom->outline.corners(), std::size_t(geom->outline.count()) * sizeof(polytope::Vector2));
 	}
 
@@ -163,7 +164,7 @@ polytope::ContactSettings PolytopeGeomFunctor::settings(
 bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
         const State& state1, const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	prefetchAfter(*c, *scene, sizeof(PolytopeGeom), sizeof(Polytope));
+	prefetchAfter(*c, *scene, PolytopeGeom::bytesOfEachStep(), sizeof(Polytope));
 	if (const Interaction* const next = prefetch::readable(*c, *scene)) fetchParts(*next);
 	const KnowsBonds* const bonds = bonds_.in(*scene);
 	if (bonds && bonds->joins(c->getId1(), c->getId2())) return false; // the bond acts in its place
@@ -204,7 +205,8 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	};
 	Vector3r inside;
 	if (asPieces) settings.inside = &inside;
-	const polytope::KeptVertices last = memory.surface;
+	polytope::KeptVertices last;
+	if (asPieces) last = memory.surface;
 	ask();
 	bool sameSurface = result.surfaceKept;
 	if (asPieces && result.inContact

@@ -2,7 +2,7 @@
 """Bonds with what else a scene has: clumps, threads, measures, checks, other contacts, energies of a body that breaks."""
 
 import pytest
-from scenes import gravity, joint, loop, stepper
+from scenes import gravity, joint, kineticEnergy, loop, stepper
 from test_threads import run
 from yade import GlobalStiffnessTimeStepper, NewtonIntegrator, O, PolytopeTimeStepper, Vector3, polytope
 
@@ -155,20 +155,15 @@ def testEnergyOfACubeThatBreaksOnAFloor():
 	while O.time < 0.02:
 		O.run(50, wait=True)
 	assert polytope.bonds().intactCount < made / 2
-	before = sum(kinetic(body.state) for body in O.bodies if body.dynamic)
+	before = sum(kineticEnergy(body.state) for body in O.bodies if body.dynamic)
 	O.step()
-	now = (before + sum(kinetic(body.state) for body in O.bodies if body.dynamic)) / 2
+	now = (before + sum(kineticEnergy(body.state) for body in O.bodies if body.dynamic)) / 2
 	ours = ('elastPotential', 'plastDissip', 'fractureDissip', 'nonconservative')
 	energies = {name: O.energy[name] for name in ours if name in dict(O.energy.items())}
 	print(now / start, {name: value / start for name, value in energies.items()})
 	assert now + sum(energies.values()) == pytest.approx(start, rel=1e-2)
 	# contacts go on with the bonds' forces, which have no edges: a difference of the depth, 6 mm, over the blocks' size
 	assert energies['fractureDissip'] > 0.01 * start and abs(energies.get('nonconservative', 0)) < 0.02 * start
-
-
-def kinetic(state):
-	spin = state.ori.conjugate() * state.angVel
-	return (state.mass * state.vel.squaredNorm() + spin.dot(Vector3(*(i * w for i, w in zip(state.inertia, spin, strict=True))))) / 2
 
 
 twoRows = '''

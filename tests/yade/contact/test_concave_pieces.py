@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scenes import kineticEnergy
 from yade import O, Quaternion, RockJointMat, Vector3, polytope
 
 stiffness = 1e9
@@ -118,11 +119,6 @@ def testEachPieceBearsWhatItsSpringsBear(shape, support, tilt):
 		assert found[:, k] == pytest.approx(exact[:, k], abs=1e-4 * exact[:, 1].max() * (1 if k == 1 else size))
 
 
-def kinetic(state):
-	spin = state.ori.conjugate() * state.angVel
-	return state.mass * state.vel.squaredNorm() / 2 + sum(state.inertia[k] * spin[k] ** 2 / 2 for k in range(3))
-
-
 @pytest.mark.parametrize(
 	'pieces, tilt, x, y, turn',
 	[
@@ -146,7 +142,7 @@ def testAnImpactOfFewStepsKeepsItsEnergy(pieces, tilt, x, y, turn):
 	first, height = None, state.pos[2]
 	while O.time < 0.16:
 		O.step()
-		energy = kinetic(state) + state.mass * 9.81 * (state.pos[2] + height) / 2  # velocities are of half a step before
+		energy = kineticEnergy(state) + state.mass * 9.81 * (state.pos[2] + height) / 2  # velocities are of half a step before
 		height = state.pos[2]
 		if any(contact.isReal and contact.phys.normalForce.norm() > 0 for contact in O.interactions):
 			touched = True
@@ -172,13 +168,13 @@ def energyGainedOnTerrain(seed):
 	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
 	O.dt = 3e-4
 
-	before, stored, free = kinetic(state), 0.0, 0
+	before, stored, free = kineticEnergy(state), 0.0, 0
 	while not stored or free < 50:
 		O.step()
 		held = O.energy['elastPotential'] if 'elastPotential' in O.energy.keys() else 0.0  # noqa: SIM118
 		stored, free = max(stored, held), 0 if held else free + 1
 		assert O.time < 5
-	return (kinetic(state) - before) / stored
+	return (kineticEnergy(state) - before) / stored
 
 
 def testCollisionsWithHollowTerrainKeepTheirEnergy():

@@ -5,7 +5,7 @@ from math import cos, radians, sin, sqrt, tan
 
 import pytest
 from flatFace import sunk
-from scenes import blockOnFloor, contact, density, gravity, joint, law, loop, period, rowInAPeriodicCell
+from scenes import blockOnFloor, contact, density, gravity, joint, kineticEnergy, law, loop, period, rowInAPeriodicCell
 from yade import (
 	Bo1_Polytope_Aabb,
 	ForceResetter,
@@ -241,11 +241,7 @@ def spinMomentum(body):
 
 
 def kinetic(bodies):
-	energy = 0
-	for b in bodies:
-		spin = b.state.ori.conjugate() * b.state.angVel
-		energy += b.state.mass * b.state.vel.squaredNorm() / 2 + sum(b.state.inertia[k] * spin[k] ** 2 / 2 for k in range(3))
-	return energy
+	return sum(kineticEnergy(body.state) for body in bodies)
 
 
 def twoFreeBlocks(half, gap):

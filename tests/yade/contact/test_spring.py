@@ -9,7 +9,7 @@ from math import atan, cos, pi, sin, sqrt
 import numpy as np
 import pytest
 from boon2012.falling.scene import FallingPolyhedra
-from scenes import blockOnFloor, density, gravity, joint, loop
+from scenes import blockOnFloor, density, gravity, joint, kineticEnergy, loop
 from scipy.integrate import solve_ivp
 from yade import Ig2_Polytope_Polytope_PolytopeGeom, O, Quaternion, Vector3, polytope
 
@@ -101,13 +101,6 @@ def testTheForceOfAFaceThatWidensFromItsEdgeIsBesideIt(corners, largest):
 # ------------------------------------------------------------------------------------------------------------- collisions
 
 
-def kineticEnergy(body):
-	"""Kinetic energy with YADE's default integrator, which carries the angular velocity in the body's axes."""
-	state = body.state
-	spin = state.ori.conjugate() * state.angVel
-	return (state.mass * state.vel.squaredNorm() + sum(state.inertia[k] * spin[k] ** 2 for k in range(3))) / 2
-
-
 def angularMomentum(body):
 	"""Angular momentum about the origin, half a step before the present positions: that of the velocities."""
 	state, half = body.state, O.dt / 2
@@ -161,7 +154,7 @@ def collide(seed, step, model, cubes=False):
 	"""Relative error of the kinetic energy after the bodies of meet() have parted; *step* is over sqrt(mass / stiffness), half a contact's
 	duration over π."""
 	bodies = meet(seed, model, cubes)
-	before = sum(map(kineticEnergy, bodies))
+	before = sum(kineticEnergy(body.state) for body in bodies)
 	O.dt = step * sqrt(density * 0.2 / stiffness)
 	touching = touched = False
 	while touching or O.time < flight:  # some meet twice
@@ -170,7 +163,7 @@ def collide(seed, step, model, cubes=False):
 		touching = any(i.isReal for i in O.interactions)
 		touched = touched or touching
 	assert touched
-	return sum(map(kineticEnergy, bodies)) / before - 1
+	return sum(kineticEnergy(body.state) for body in bodies) / before - 1
 
 
 meetings = range(1, 41)
@@ -202,11 +195,11 @@ def testWhatTheIntegratorDoesByItself():
 			bodies = meet(seed, 'spring', gap=5)
 			O.dt = step * sqrt(density * 0.2 / stiffness)
 			O.step()
-			start, moment = [kineticEnergy(body) for body in bodies], momentum()
+			start, moment = [kineticEnergy(body.state) for body in bodies], momentum()
 			spins = [body.state.ori.conjugate() * body.state.angVel for body in bodies]
 			taken = int(flight / O.dt)
 			O.run(taken, wait=True)
-			energies += [kineticEnergy(body) / one - 1 for body, one in zip(bodies, start, strict=True)]
+			energies += [kineticEnergy(body.state) / one - 1 for body, one in zip(bodies, start, strict=True)]
 			momenta.append((momentum() - moment).norm() / moment.norm())
 			for body, spin in zip(bodies, spins, strict=True):
 				inertia = np.array(body.state.inertia, float)
