@@ -5,6 +5,7 @@
 #include "contact/StoredVertices.hpp"
 #include "host/FlatArchive.hpp"
 #include "host/Seldom.hpp"
+#include "material/StiffnessRules.hpp"
 
 #include <pkg/dem/ScGeom.hpp>
 
