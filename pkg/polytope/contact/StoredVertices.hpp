@@ -35,19 +35,19 @@ public:
 		        | (kept.ofEnergy ? ofEnergy : 0);
 		const std::array<Byte, header> first { { kept.planes, kept.vertices, Byte(flags), kept.bytesOfPieces } };
 		codes_.resize(sizeFor(first), boost::container::default_init);
-		Byte*      to  = codes_.data();
-		const auto put = [&to](const void* from, std::size_t bytes) {
+		Byte*      to         = codes_.data();
+		const auto writeBytes = [&to](const void* from, std::size_t bytes) {
 			std::memcpy(to, from, bytes);
 			to += bytes;
 		};
-		put(first.data(), header);
-		if (kept.shared) put(&kept.shared, sizeof kept.shared);
+		writeBytes(first.data(), header);
+		if (kept.shared) writeBytes(&kept.shared, sizeof kept.shared);
 		for (auto name = begin; name != end; ++name) {
 			*to++ = Byte(!isWide && *name == polytope::KeptVertices::noPressure ? noPressure : *name & 255);
 			if (isWide) *to++ = Byte(*name >> 8);
 		}
-		put(kept.tight.data(), 4 * std::size_t(kept.vertices));
-		put(kept.piece.data(), kept.bytesOfPieces);
+		writeBytes(kept.tight.data(), 4 * std::size_t(kept.vertices));
+		writeBytes(kept.piece.data(), kept.bytesOfPieces);
 	}
 
 	void get(polytope::KeptVertices& kept) const
