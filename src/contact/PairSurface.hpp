@@ -69,7 +69,7 @@ POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R
 	surface.nearest = set.tightPlanes();
 	if (!surface.on) outlineOfVertices<R>(set, surface);
 	if (!near && surface.stiffness && !surface.on) surface.differentiated = sums.differentiate(*surface.stiffness);
-	if (!near && (kept->bytesOfPieces == 0 || kept->ofEnergy != surface.energy)) vertices.keepPieces(*kept);
+	if (!near) vertices.keepPieces(*kept);
 	if (near && kept) vertices.keep(*kept, all.first, [near](int row) { return near->rowOfAll(row); });
 	return true;
 }

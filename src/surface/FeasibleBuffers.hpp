@@ -7,10 +7,26 @@
 /// Memory for one feasible set (FeasibleSet.hpp) and for the sums over it (FeasibleSums.hpp), which the caller has: nothing here allocates.
 namespace polytope {
 
+/// A piece of the surface (FeasiblePieces.hpp) in a list: bytes i, j, first vertex, number of triangles, and the other two vertices of each.
+struct FeasiblePiece {
+	int                 i, j; ///< i: of the first of FeasibleBuffers::Owner
+	int                 first, triangles;
+	const std::uint8_t* ends; ///< of the triangles
+
+	static constexpr int header = 4;
+
+	POLYTOPE_INLINE explicit FeasiblePiece(const std::uint8_t* at)
+	        : i(at[0]), j(at[1]), first(at[2]), triangles(at[3]), ends(at + header)
+	{
+	}
+	/// Where the next one is.
+	const std::uint8_t* end() const { return ends + 2 * triangles; }
+};
+
 template <class R> struct FeasibleBuffers {
 	static constexpr int mostPlanes = tolerance::feasiblePlanes, mostVertices = tolerance::feasibleVertices;
 	// four edges meet in a vertex, three faces in an edge, and there are as many faces as vertices and cells together
-	static constexpr int mostPieces = mostVertices + mostPlanes, mostTriangles = 3 * 2 * mostVertices, pieceHeader = 4;
+	static constexpr int mostPieces = mostVertices + mostPlanes, mostTriangles = 3 * 2 * mostVertices;
 	static constexpr int outlineRows = 7;
 
 	/// Whose a plane is: of body 1, of both where planes of both coincide, of body 2, of none that of no pressure. In this order the first of
@@ -33,7 +49,7 @@ template <class R> struct FeasibleBuffers {
 	const std::uint8_t* pieces;
 	int                 bytesOfPieces;
 	bool                piecesOfEnergy;
-	std::uint8_t        roomForPieces[pieceHeader * mostPieces + 2 * mostTriangles];
+	std::uint8_t        roomForPieces[FeasiblePiece::header * mostPieces + 2 * mostTriangles];
 
 	// of all planes of the pair
 	R*   split; ///< offsets with which no more than four planes meet

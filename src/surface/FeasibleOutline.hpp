@@ -78,7 +78,7 @@ public:
 private:
 	static constexpr int          most = FeasibleBuffers<R>::mostPlanes, mostVertices = FeasibleBuffers<R>::mostVertices;
 	static constexpr std::uint8_t nothing = 255;
-	static_assert(7 * most <= FeasibleBuffers<R>::outlineRows * FeasibleBuffers<R>::mostPlanes);
+	static_assert(4 + 3 == FeasibleBuffers<R>::outlineRows); // for each corner, in either order
 
 	POLYTOPE_INLINE void goAround(int cuts, const R* normal)
 	{

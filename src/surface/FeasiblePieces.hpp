@@ -12,22 +12,6 @@
 /// from the planes that are tight in each vertex: it is kept with these from step to step (KeptVertices.hpp).
 namespace polytope {
 
-/// One of them in a list: bytes i, j, first vertex, number of triangles, and the other two vertices of each.
-struct FeasiblePiece {
-	int                 i, j; ///< i: of the first of FeasibleBuffers::Owner
-	int                 first, triangles;
-	const std::uint8_t* ends; ///< of the triangles
-
-	static constexpr int header = 4;
-
-	POLYTOPE_INLINE explicit FeasiblePiece(const std::uint8_t* at)
-	        : i(at[0]), j(at[1]), first(at[2]), triangles(at[3]), ends(at + header)
-	{
-	}
-	/// Where the next one is.
-	const std::uint8_t* end() const { return ends + 2 * triangles; }
-};
-
 /// The cells of a set: in each of them one plane is tight.
 template <class R> struct FeasibleCells {
 	static constexpr int most = FeasibleBuffers<R>::mostPlanes;
@@ -77,7 +61,7 @@ public:
 private:
 	using Owner                  = typename FeasibleBuffers<R>::Owner;
 	static constexpr int unknown = 255, most = FeasibleBuffers<R>::mostPlanes, mostPieces = FeasibleBuffers<R>::mostPieces;
-	static_assert(mostPieces < unknown && FeasiblePiece::header == FeasibleBuffers<R>::pieceHeader);
+	static_assert(mostPieces < unknown);
 
 	static std::uint64_t bit(int plane) { return std::uint64_t(1) << plane; }
 

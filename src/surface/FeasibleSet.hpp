@@ -44,9 +44,9 @@ public:
 		buffers_.vertices = vertices;
 		std::memcpy(buffers_.tight, kept.tight.data(), 4 * std::size_t(vertices));
 		const bool known = kept.bytesOfPieces > 0 && kept.ofEnergy == energy;
-		if (!known && !isPolytope()) return false;
-		for (int v = 0; v < vertices; ++v)
+		for (int v = 0; v < vertices && known; ++v)
 			buffers_.mask[v] = maskOf(buffers_.tight[v]);
+		if (!known && !isPolytope()) return false;
 		if (!vertices_.placeAll() || (kept.shared != 0 && flush_.shareCoinciding() != kept.shared)) return false;
 		if (known) {
 			buffers_.pieces         = kept.piece.data();
@@ -77,9 +77,10 @@ public:
 		keepPieces(kept);
 	}
 
-	/// Of more than there is room for none are kept.
+	/// If they are not those. Of more than there is room for none are kept.
 	POLYTOPE_INLINE void keepPieces(KeptVertices& kept) const
 	{
+		if (buffers_.pieces == kept.piece.data()) return;
 		const bool fit     = buffers_.bytesOfPieces <= KeptVertices::mostBytes;
 		kept.bytesOfPieces = std::uint8_t(fit ? buffers_.bytesOfPieces : 0);
 		kept.ofEnergy      = buffers_.piecesOfEnergy;

@@ -6,15 +6,18 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
-/// Which planes are tight in the vertices of a pair's last feasible set, and the pieces of its surface. From step to step they seldom change: then FeasibleSet::recall() has the contact surface without looking for it.
+/// Which planes are tight in the vertices of a pair's last feasible set, and the pieces of its surface. From step to step they seldom
+/// change: then FeasibleSet::recall() has the contact surface without looking for it.
 namespace polytope {
 
 /// Values, no pointers: copied and saved with the interaction. Any value without pieces is safe; pieces are taken as they are, so they are not
 /// saved, but made again.
 struct KeptVertices {
 	static constexpr int mostPlanes = tolerance::feasiblePlanes, mostVertices = tolerance::feasibleVertices, noPressure = 65535,
-	                     mostOfBody = 32767, mostBytes = 255;
+	                     mostOfBody = 32767,
+	                     mostBytes  = std::numeric_limits<std::uint8_t>::max(); // of pieces, as bytesOfPieces can say
 
 	std::uint8_t  planes        = 0; ///< that are tight somewhere
 	std::uint8_t  vertices      = 0; ///< 0: nothing is kept

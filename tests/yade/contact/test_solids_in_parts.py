@@ -6,6 +6,7 @@ import math
 import random
 
 import pytest
+from scenes import kineticEnergy
 from yade import (
 	Ip2_RockJointMat_RockJointMat_RockJointPhys,
 	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
@@ -166,11 +167,7 @@ def collision(rule, cube, some):
 	stored = 0
 	while O.time < 1 and not (stored and not O.interactions.countReal()):
 		O.run(5, wait=True)
-		moving = sum(
-			body.state.mass * body.state.vel.squaredNorm() / 2
-			+ sum(i * w * w for i, w in zip(body.state.inertia, body.state.ori.conjugate() * body.state.angVel, strict=True)) / 2
-			for body in (one, other)
-		)
+		moving = kineticEnergy(one.state) + kineticEnergy(other.state)
 		stored = max(stored, before - moving)
 	assert stored > 0.05 * before and not O.interactions.countReal()
 	return moving, before, stored
