@@ -86,6 +86,10 @@ namespace {
 			if (!grown) break;
 			overlap = OverlapOfSolids(solids, flat, reach);
 		}
+		ofPieces.forFaces([&](const OverlapOfSolids::Face& on) {
+			SolidOfPieces& other = solids[1 - on.body];
+			if (other.isOpen()) other.leaveOutCovered(solids[on.body].faces[on.number].plane, on.corners, on.middle);
+		});
 		return overlap;
 	}
 

@@ -98,6 +98,12 @@ void SolidOfPieces::leaveOut(std::size_t which, const std::vector<Vector3r>& ove
 		face.isInternal = face.isInternal || (!face.isEnd && isSame(face.plane, plane));
 }
 
+void SolidOfPieces::leaveOutCovered(const polytope::Plane& plane, const std::vector<Vector3r>& corners, const Vector3r& middle)
+{
+	for (FaceOfPiece& face : faces)
+		if (face.own < 0 && !face.isInternal && isSame(face.plane, plane)) face.isInternal = covers(face, corners, middle);
+}
+
 bool SolidOfPieces::keepBelow(const FaceOfPiece& end, const Vector3r& middle)
 {
 	const Real far  = offFace(Real(polytope::tolerance::flushOfDepth) * ball_);

@@ -51,6 +51,10 @@ public:
 	/// pieces, which has such corners.
 	void leaveOut(std::size_t which, const std::vector<Vector3r>& overlap);
 
+	/// Leaves out faces of other pieces in a plane of the other body, which bounds the overlap of the two pieces there from corner to corner: they are
+	/// no ends where the solid fills the place beyond. So it is between rows of fixed blocks, each of which has blocks of both rows in its solid.
+	void leaveOutCovered(const polytope::Plane& plane, const std::vector<Vector3r>& corners, const Vector3r& middle);
+
 	/// Internal faces stay if a piece below them rises above the face `end` of another piece, by which the grown overlap has such a middle: at a
 	/// corner that points inwards. Returns whether there are some.
 	bool keepBelow(const FaceOfPiece& end, const Vector3r& middle);

@@ -590,3 +590,27 @@ def testTheShearOfAJointInThePlaneIsThatOfItsMiddle():
 		if c.isReal and c.phys.contactArea == pytest.approx(length, rel=1e-2)
 	]
 	assert sheared[:2] == pytest.approx([length * (6.5 * rise - 5e4) * math.sin(half) * math.cos(half)] * 2, rel=1e-3)
+
+
+@pytest.mark.parametrize('turn', [0, 0.1, 1])
+def testBlocksAmongFixedBlocksKeepTheirForcesInEachStep(turn):
+	"""Fixed blocks of both rows are of one solid: their faces in the joint's plane are not its ends."""
+	material(frictionAngle=math.radians(35))
+	joints = [(50, 80, 1.3), (70, 200, 1.5), (20, 310, 1.6)]
+	sets = [polytope.JointSet(math.radians(dip + turn), math.radians(direction + turn), spacing) for dip, direction, spacing in joints]
+	mass = polytope.jointedRock(sides, [3] * 6, sets)
+	for k, made in zip(mass.append(), mass.faces, strict=True):
+		O.bodies[k].dynamic = not (made < 0).any()
+	O.engines = polytope.engines()
+	polytope.inSitu(-103 * k0, gradient=[0 * k0, 0 * k0, k0])
+
+	def forces():
+		return {(c.id1, c.id2): float(c.phys.normalForce.norm()) for c in O.interactions if c.isReal}
+
+	first = forces()
+	large = 1e-2 * max(first.values())
+	for _ in range(30):
+		O.step()
+		now = forces()
+		changed = {pair: now.get(pair, 0) / force for pair, force in first.items() if force > large}
+		assert changed == pytest.approx(dict.fromkeys(changed, 1), rel=0.05)
