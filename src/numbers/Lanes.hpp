@@ -13,6 +13,8 @@
 /// extensions): one source for SSE2, AVX2 and AVX-512VL, and plain scalars for arithmetics wider than double.
 namespace polytope {
 
+/// Whatever returns a vector or takes one by value has to be this: a function of its own is compiled for the plain instruction set, whose callers
+/// look for a vector of four elsewhere than those that are compiled for AVX.
 #define POLYTOPE_INLINE inline __attribute__((always_inline))
 #define POLYTOPE_INLINE_LAMBDA __attribute__((always_inline))
 /// One copy for all instruction sets: what only some pairs need, and follows indices, does not make the code of the others longer.

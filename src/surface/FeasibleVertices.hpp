@@ -158,7 +158,7 @@ private:
 		return true;
 	}
 
-	Four tightPlane(int v, int slot) const { return load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][slot]); }
+	POLYTOPE_INLINE Four tightPlane(int v, int slot) const { return load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][slot]); }
 
 	static POLYTOPE_INLINE void multiply(Crossing& c)
 	{

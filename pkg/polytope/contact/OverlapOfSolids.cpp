@@ -46,12 +46,24 @@ OverlapOfSolids::OverlapOfSolids(const SolidOfPieces (&solids)[2], bool flat, co
 {
 	std::vector<polytope::Plane>             planes;
 	std::vector<std::pair<int, std::size_t>> named; // body and number of each
-	for (int body = 0; body < 2; ++body)
-		for (std::size_t k = 0; k < solids[body].faces.size(); ++k) {
-			if (solids[body].faces[k].isInternal) continue;
-			planes.push_back(solids[body].faces[k].plane);
+	const auto                               isThere = [&](int body, const polytope::Plane& plane) {
+                for (std::size_t k = 0; k < planes.size(); ++k)
+                        if (named[k].first != body && solids[body].isSame(planes[k], plane, reach)) return true;
+                return false;
+	};
+	const auto add = [&](int body, bool own) {
+		const std::vector<FaceOfPiece>& faces = solids[body].faces;
+		for (std::size_t k = 0; k < faces.size(); ++k) {
+			if (faces[k].isInternal || (faces[k].own >= 0) != own || isThere(body, faces[k].plane)) continue;
+			planes.push_back(faces[k].plane);
 			named.emplace_back(body, k);
 		}
+	};
+	for (const bool own : { true, false })
+		for (int body = 0; body < 2; ++body)
+			if (solids[body].isPieced()) add(body, own);
+	for (int body = 0; body < 2; ++body)
+		if (!solids[body].isPieced()) add(body, true);
 	for (int side = flat ? -1 : 2; side < 2; side += 2)
 		planes.push_back({ Vector3r(0, 0, side), reach });
 	for (polytope::OverlapFace& found : polytope::overlapFaces(planes, 2 * reach)) {

@@ -95,13 +95,13 @@ void SolidOfPieces::leaveOut(std::size_t which, const std::vector<Vector3r>& ove
 	if (!isOpen_) addFacesOfOthers(overlap);
 	const polytope::Plane plane = faces[which].plane;
 	for (FaceOfPiece& face : faces)
-		face.isInternal = face.isInternal || (!face.isEnd && isSame(face.plane, plane));
+		face.isInternal = face.isInternal || (!face.isEnd && isSame(face.plane, plane, extent_));
 }
 
 void SolidOfPieces::leaveOutCovered(const polytope::Plane& plane, const std::vector<Vector3r>& corners, const Vector3r& middle)
 {
 	for (FaceOfPiece& face : faces)
-		if (face.own < 0 && !face.isInternal && isSame(face.plane, plane)) face.isInternal = covers(face, corners, middle);
+		if (face.own < 0 && !face.isInternal && isSame(face.plane, plane, extent_)) face.isInternal = covers(face, corners, middle);
 }
 
 bool SolidOfPieces::keepBelow(const FaceOfPiece& end, const Vector3r& middle)
@@ -166,11 +166,6 @@ bool SolidOfPieces::isBeside(const FaceOfPiece& face, const Vector3r& point, con
 	return false;
 }
 
-bool SolidOfPieces::isSame(const polytope::Plane& one, const polytope::Plane& other) const
-{
-	return math::abs(one.offset - other.offset) <= step_ && (one.normal - other.normal).norm() * extent_ <= step_;
-}
-
 void SolidOfPieces::addFacesOfOthers(const std::vector<Vector3r>& overlap)
 {
 	isOpen_ = true;
@@ -181,7 +176,7 @@ void SolidOfPieces::addFacesOfOthers(const std::vector<Vector3r>& overlap)
 		        [&](const Vector3r& corner) { return plane.normal.dot(corner) > plane.offset + step_; });
 	};
 	const auto isOwn = [&](const polytope::Plane& plane) {
-		return std::any_of(own_.begin(), own_.end(), [&](const polytope::Plane& own) { return isSame(own, plane); });
+		return std::any_of(own_.begin(), own_.end(), [&](const polytope::Plane& own) { return isSame(own, plane, extent_); });
 	};
 	for (const Piece& piece : pieces_)
 		for (std::size_t k = 0; k < piece.solid.faces; ++k) {

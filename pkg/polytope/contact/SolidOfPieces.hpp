@@ -47,6 +47,12 @@ public:
 	bool risesAt(
 	        const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Real& length, const Vector3r& middle) const;
 
+	/// Whether two faces are in one plane, as far as `extent`.
+	bool isSame(const polytope::Plane& one, const polytope::Plane& other, const Real& extent) const
+	{
+		return math::abs(one.offset - other.offset) <= step_ && (one.normal - other.normal).norm() * extent <= step_;
+	}
+
 	/// The overlap goes on beyond this face, within the faces of the other pieces that do not cut the overlap of the two
 	/// pieces, which has such corners.
 	void leaveOut(std::size_t which, const std::vector<Vector3r>& overlap);
@@ -91,7 +97,6 @@ private:
 	bool goesThrough(const Vector3r& one, const Vector3r& other, bool orOwn) const;
 	Real roomBeside(const FaceOfPiece& face, const Vector3r& middle) const;
 	bool isBeside(const FaceOfPiece& face, const Vector3r& point, const Real& near) const;
-	bool isSame(const polytope::Plane& one, const polytope::Plane& other) const;
 	Real offFace(const Real& far) const;
 
 	Vector3r            centre_;

@@ -614,3 +614,26 @@ def testBlocksAmongFixedBlocksKeepTheirForcesInEachStep(turn):
 		now = forces()
 		changed = {pair: now.get(pair, 0) / force for pair, force in first.items() if force > large}
 		assert changed == pytest.approx(dict.fromkeys(changed, 1), rel=0.05)
+
+
+def testBlocksAmongFixedBlocksComeToRest():
+	"""Their faces lie in one plane with those of the fixed blocks beside them: rounding must not say whose these are, anew in each search."""
+	material(frictionAngle=math.radians(40))
+	joints = [(15.44, 161.58, 1.168), (85.91, 226.15, 1.128), (30.12, 319.27, 1.137)]
+	sets = [polytope.JointSet(math.radians(dip), math.radians(direction), spacing) for dip, direction, spacing in joints]
+	mass = polytope.jointedRock(sides, [3] * 6, sets)
+	for k, made in zip(mass.append(), mass.faces, strict=True):
+		O.bodies[k].dynamic = not (made < 0).any()
+	O.engines = polytope.engines()
+	polytope.inSitu(-103 * k0, gradient=[0 * k0, 0 * k0, k0])
+	polytope.settle(elastic=False)
+
+	def forces():
+		return {(c.id1, c.id2): np.array(c.phys.normalForce) for c in O.interactions if c.isReal}
+
+	first = forces()
+	largest = max(np.linalg.norm(force) for force in first.values())
+	for _ in range(40):  # a search takes turns every 16 steps
+		O.step()
+		now = forces()
+		assert max(np.linalg.norm(now[pair] - first[pair]) for pair in first) < 1e-5 * largest
