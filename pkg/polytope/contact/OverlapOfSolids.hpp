@@ -11,8 +11,10 @@ namespace yade {
 
 class OverlapOfSolids {
 public:
-	/// Between all faces that are not internal. Of faces of both bodies in one plane, as blocks that were cut from one mass have, it is rounding that says which
-	/// one bounds it: it is that of a body with pieces, which may be internal, and its own before those of its neighbours. `flat`: of polygons, whose depth does not matter; `reach`: no point of it is farther.
+	/// Between all faces that are not internal. `flat`: of polygons, whose depth does not matter; `reach`: no point of it is farther.
+	///
+	/// Blocks that were cut from one mass have faces in one plane, and rounding says which body's bounds the overlap. There it is that of a body with pieces,
+	/// which may be internal, and the touching piece's own before its neighbours'.
 	OverlapOfSolids(const SolidOfPieces (&solids)[2], bool flat, const Real& reach);
 
 	struct Face {

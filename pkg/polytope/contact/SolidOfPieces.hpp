@@ -47,7 +47,7 @@ public:
 	bool risesAt(
 	        const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Real& length, const Vector3r& middle) const;
 
-	/// Whether two faces are in one plane, as far as `extent`.
+	/// Whether two planes are no farther from each other than a step that counts as none, up to `extent` from the overlap's point.
 	bool isSame(const polytope::Plane& one, const polytope::Plane& other, const Real& extent) const
 	{
 		return math::abs(one.offset - other.offset) <= step_ && (one.normal - other.normal).norm() * extent <= step_;

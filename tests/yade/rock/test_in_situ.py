@@ -592,48 +592,42 @@ def testTheShearOfAJointInThePlaneIsThatOfItsMiddle():
 	assert sheared[:2] == pytest.approx([length * (6.5 * rise - 5e4) * math.sin(half) * math.cos(half)] * 2, rel=1e-3)
 
 
-@pytest.mark.parametrize('turn', [0, 0.1, 1])
-def testBlocksAmongFixedBlocksKeepTheirForcesInEachStep(turn):
-	"""Fixed blocks of both rows are of one solid: their faces in the joint's plane are not its ends."""
-	material(frictionAngle=math.radians(35))
-	joints = [(50, 80, 1.3), (70, 200, 1.5), (20, 310, 1.6)]
-	sets = [polytope.JointSet(math.radians(dip + turn), math.radians(direction + turn), spacing) for dip, direction, spacing in joints]
-	mass = polytope.jointedRock(sides, [3] * 6, sets)
-	for k, made in zip(mass.append(), mass.faces, strict=True):
-		O.bodies[k].dynamic = not (made < 0).any()
-	O.engines = polytope.engines()
-	polytope.inSitu(-103 * k0, gradient=[0 * k0, 0 * k0, k0])
-
-	def forces():
-		return {(c.id1, c.id2): float(c.phys.normalForce.norm()) for c in O.interactions if c.isReal}
-
-	first = forces()
-	large = 1e-2 * max(first.values())
-	for _ in range(30):
-		O.step()
-		now = forces()
-		changed = {pair: now.get(pair, 0) / force for pair, force in first.items() if force > large}
-		assert changed == pytest.approx(dict.fromkeys(changed, 1), rel=0.05)
-
-
-def testBlocksAmongFixedBlocksComeToRest():
-	"""Their faces lie in one plane with those of the fixed blocks beside them: rounding must not say whose these are, anew in each search."""
-	material(frictionAngle=math.radians(40))
-	joints = [(15.44, 161.58, 1.168), (85.91, 226.15, 1.128), (30.12, 319.27, 1.137)]
+def amongFixedBlocks(joints, **joint):
+	"""A cube of 6 m, its top 100 m deep, whose blocks at the boundary are the fixed ones, with the stress of its depth."""
+	material(**joint)
 	sets = [polytope.JointSet(math.radians(dip), math.radians(direction), spacing) for dip, direction, spacing in joints]
 	mass = polytope.jointedRock(sides, [3] * 6, sets)
 	for k, made in zip(mass.append(), mass.faces, strict=True):
 		O.bodies[k].dynamic = not (made < 0).any()
 	O.engines = polytope.engines()
 	polytope.inSitu(-103 * k0, gradient=[0 * k0, 0 * k0, k0])
+
+
+def normalForces():
+	return {(c.id1, c.id2): np.array(c.phys.normalForce) for c in O.interactions if c.isReal}
+
+
+@pytest.mark.parametrize('turn', [0, 0.1, 1])
+def testBlocksAmongFixedBlocksKeepTheirForcesInEachStep(turn):
+	"""Fixed blocks of both rows are of one solid: their faces in the joint's plane are not its ends."""
+	joints = [(50, 80, 1.3), (70, 200, 1.5), (20, 310, 1.6)]
+	amongFixedBlocks([(dip + turn, direction + turn, spacing) for dip, direction, spacing in joints], frictionAngle=math.radians(35))
+	first = {pair: np.linalg.norm(force) for pair, force in normalForces().items()}
+	large = 1e-2 * max(first.values())
+	for _ in range(30):
+		O.step()
+		now = normalForces()
+		changed = {pair: np.linalg.norm(now.get(pair, 0)) / force for pair, force in first.items() if force > large}
+		assert changed == pytest.approx(dict.fromkeys(changed, 1), rel=0.05)
+
+
+def testBlocksAmongFixedBlocksComeToRest():
+	"""Their faces lie in one plane with those of the fixed blocks beside them: rounding must not say whose these are, anew in each search."""
+	amongFixedBlocks([(15.44, 161.58, 1.168), (85.91, 226.15, 1.128), (30.12, 319.27, 1.137)], frictionAngle=math.radians(40))
 	polytope.settle(elastic=False)
-
-	def forces():
-		return {(c.id1, c.id2): np.array(c.phys.normalForce) for c in O.interactions if c.isReal}
-
-	first = forces()
+	first = normalForces()
 	largest = max(np.linalg.norm(force) for force in first.values())
 	for _ in range(40):  # a search takes turns every 16 steps
 		O.step()
-		now = forces()
+		now = normalForces()
 		assert max(np.linalg.norm(now[pair] - first[pair]) for pair in first) < 1e-5 * largest
