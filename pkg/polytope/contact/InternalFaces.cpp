@@ -19,26 +19,29 @@ namespace {
 	{
 		const FaceOfPiece& face  = solid.faces[covered.number];
 		Real               along = 0, rising = 0;
+		const auto         rises = [&](const FaceOfPiece& beside, const Vector3r& edge, const Real& length) {
+                        return solid.risesAt(face, beside, edge, length, covered.middle, overlap.widthFrom(beside.plane));
+		};
 		overlap.forEdges(covered, [&](std::size_t number, const Vector3r& one, const Vector3r& other) {
 			const FaceOfPiece& beside = solid.faces[number];
 			if (beside.isCovered) return;
 			const Real length = (other - one).norm();
 			along += length;
-			if (solid.risesAt(face, beside, (one + other) / 2, length, covered.middle)) rising += length;
+			if (rises(beside, (one + other) / 2, length)) rising += length;
 		});
 		if (along > 0) return 2 * rising <= along;
 		// where the overlap reaches it with a corner alone, from another face: as if it went on to that one
-		bool rises = false;
+		bool isHigher = false;
 		overlap.forFaces([&](const OverlapOfSolids::Face& other) {
-			if (other.body != covered.body || other.number == covered.number || rises) return;
+			if (other.body != covered.body || other.number == covered.number || isHigher) return;
 			const FaceOfPiece& beside = solid.faces[other.number];
 			if (beside.isCovered) return;
 			Vector3r way;
 			if (!wayOut(beside.plane, face.plane, way)) return;
 			const Vector3r edge = covered.middle + (beside.plane.offset - beside.plane.normal.dot(covered.middle)) * way;
-			rises               = solid.risesAt(face, beside, edge, std::numeric_limits<Real>::infinity(), covered.middle);
+			isHigher            = rises(beside, edge, std::numeric_limits<Real>::infinity());
 		});
-		return !rises;
+		return !isHigher;
 	}
 
 	/// Where the other body presses on a piece at a corner that points inwards, and is in a piece beyond the corner, too: the overlap with the

@@ -77,15 +77,15 @@ bool SolidOfPieces::covers(const FaceOfPiece& face, const std::vector<Vector3r>&
 	});
 }
 
-bool SolidOfPieces::risesAt(
-        const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Real& length, const Vector3r& middle) const
+bool SolidOfPieces::risesAt(const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Real& length,
+        const Vector3r& middle, const Real& depth) const
 {
 	Vector3r along;
 	if (!wayOut(face.plane, beside.plane, along)) return false;
-	const Real     flush = Real(polytope::tolerance::flushOfDepth);
-	const Vector3r in = middle - edge, up = flush * ball_ * math::max(Real(1), Real(flush * in.norm() / length)) * in.normalized();
+	const Real     flush = Real(polytope::tolerance::flushOfDepth), half = math::max(ball_, Real(depth / 2));
+	const Vector3r in = middle - edge, up = flush * half * math::max(Real(1), Real(flush * in.norm() / length)) * in.normalized();
 	return std::any_of(std::begin(polytope::tolerance::closeBy), std::end(polytope::tolerance::closeBy), [&](const double& way) {
-		const Vector3r out = edge + offFace(Real(way) * ball_) * along;
+		const Vector3r out = edge + offFace(Real(way) * half) * along;
 		return goesThrough(out + up, out - up, false);
 	});
 }

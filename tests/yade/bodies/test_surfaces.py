@@ -153,7 +153,7 @@ def testSphereForComparison():
 # over free pieces
 
 
-def slideOverPieces(pieces, perArea=True, seconds=1.9, order=1, verletDist=None):
+def slideOverPieces(pieces, perArea=True, seconds=1.9, order=1, verletDist=None, stiffness=1e8):
 	"""A cube of 0.5 m slides without friction at 1 m/s over *pieces(sunk)*, which lie on a rough floor, from x = 0. The order of the bodies
 	is reversed where *order* is -1.
 
@@ -163,10 +163,15 @@ def slideOverPieces(pieces, perArea=True, seconds=1.9, order=1, verletDist=None)
 	for label, friction in (('smooth', 0), ('rough', 1)):
 		O.materials.append(
 			RockJointMat(
-				density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=friction, stiffnessPerArea=perArea, label=label
+				density=2600,
+				normalStiffness=stiffness,
+				shearStiffness=stiffness,
+				frictionAngle=friction,
+				stiffnessPerArea=perArea,
+				label=label,
 			)
 		)
-	sunk = 2600 * gravity / 1e8
+	sunk = 2600 * gravity / stiffness
 	floor = polytope.cuboid((0, 0, -1.5), (6, 2, 0.5), fixed=True, material='rough')
 	cube = polytope.cuboid((0, 0.05, 0.25 - 1.5 * sunk), (0.25, 0.25, 0.25), material='smooth', velocity=(1, 0, 0))
 	O.bodies.append([floor, *pieces(sunk), cube][::order])
@@ -212,6 +217,15 @@ def testAStairOfSlabsSlowsDownByItsHeight(height, fixed):
 	assert up - down == pytest.approx(math.sqrt(1 + 2 * gravity * height) - math.sqrt(1 - 2 * gravity * height), rel=0.02)
 	assert above[2] - below[2] == pytest.approx(2 * height, rel=1e-3)
 	assert 0 < (up + down) / 2 < 1e-4
+
+
+@pytest.mark.parametrize('perArea, stiffness, height', [(True, 2.5e6, 0.02), (False, 6.4e5, 0.02 / 4)])
+def testAStepOfAFiftiethOfTheDepthChangesNoSpeed(perArea, stiffness, height):
+	"""Up or down: the step counts as none also while no more than a sliver of the cube is left on the slab behind, or has come onto the next one. It lies
+	5 mm deep, so that it is a sliver for some steps."""
+	for sign in (1, -1):
+		lost, _ = slideOverPieces(slabs(sign * height, fixed=True), perArea=perArea, stiffness=stiffness)
+		assert abs(lost) < 1e-6
 
 
 def testSlidesOverFreeBlocksOfOneRock():
