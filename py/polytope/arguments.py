@@ -69,15 +69,21 @@ def positive(value, name):
 	return found
 
 
-def pathOfFile(path, name):
-	"""The path as a text, where there is such a file."""
+def pathOfNewFile(path, name):
+	"""The path as a text, where a file can be written."""
 	if not isinstance(path, (str, os.PathLike)):
 		raise ValueError(f'{name}: must be the path of a file, got {path!r}')
-	if not os.path.exists(path):
-		raise FileNotFoundError(f"{name}: there is no file '{path}'")
 	if os.path.isdir(path):
 		raise ValueError(f"{name}: '{path}' is a folder; give the path of a file in it")
 	return os.fspath(path)
+
+
+def pathOfFile(path, name):
+	"""The path as a text, where there is such a file."""
+	text = pathOfNewFile(path, name)
+	if not os.path.exists(text):
+		raise FileNotFoundError(f"{name}: there is no file '{text}'")
+	return text
 
 
 def flag(value, name):

@@ -11,6 +11,7 @@ tan φ, cohesion, tensile strength and their residual values of each joint and b
 materials of different strengths keep their proportions. Bolts (polytope.bolt) keep theirs.
 """
 
+import collections.abc
 import dataclasses
 import math
 
@@ -72,7 +73,8 @@ def divideStrengths(factor, reduce=strengths):
 
 def checkedStrengths(reduce):
 	"""Refuses what is no sequence of *strengths*."""
-	if isinstance(reduce, str) or not set(reduce) or not set(reduce) <= set(strengths):
+	names = () if isinstance(reduce, str) or not isinstance(reduce, collections.abc.Iterable) else list(reduce)
+	if not names or not all(name in strengths for name in names):
 		raise ValueError(f'reduce: must be a sequence of one or more of {strengths}, got {reduce!r}')
 
 

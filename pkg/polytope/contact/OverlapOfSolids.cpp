@@ -46,16 +46,18 @@ OverlapOfSolids::OverlapOfSolids(const SolidOfPieces (&solids)[2], bool flat, co
 {
 	std::vector<polytope::Plane>             planes;
 	std::vector<std::pair<int, std::size_t>> named; // body and number of each
+	std::vector<polytope::Plane>             ofBody[2];
 	const auto                               isThere = [&](int body, const polytope::Plane& plane) {
-                for (std::size_t k = 0; k < planes.size(); ++k)
-                        if (named[k].first != body && solids[body].isSame(planes[k], plane, reach)) return true;
-                return false;
+                return std::any_of(ofBody[1 - body].begin(), ofBody[1 - body].end(), [&](const polytope::Plane& other) {
+                        return solids[body].isSame(other, plane, reach);
+                });
 	};
 	const auto add = [&](int body, bool own) {
 		const std::vector<FaceOfPiece>& faces = solids[body].faces;
 		for (std::size_t k = 0; k < faces.size(); ++k) {
 			if (faces[k].isInternal || (faces[k].own >= 0) != own || isThere(body, faces[k].plane)) continue;
 			planes.push_back(faces[k].plane);
+			ofBody[body].push_back(faces[k].plane);
 			named.emplace_back(body, k);
 		}
 	};

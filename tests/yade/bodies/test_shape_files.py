@@ -53,6 +53,8 @@ def testWhatIsWrittenIsReadAgain(tmp_path):
 	assert polytope.writeShapes(path, ids=[3]) == 1 and len(polytope.readShapes(path)) == 1
 	with pytest.raises(ValueError, match='^ids: body 16 is no polyhedron'):
 		polytope.writeShapes(path, ids=[16])
+	with pytest.raises(ValueError, match='^path: .* is a folder'):
+		polytope.writeShapes(tmp_path)
 	O.reset()
 	with pytest.raises(ValueError, match='^ids: the scene has no polyhedron'):
 		polytope.writeShapes(path)

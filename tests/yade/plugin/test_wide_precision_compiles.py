@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Core and plug-in compile for a YADE whose numbers are a class, as those of MPFR and float128 are. Only `./run tradeoff` builds these; long double, which the
-tests build, is a type of C++ itself, and forgives more. The compiler only reads here: it makes no code, which would take half an hour. Of the two the one that takes
-less from built-in types stands for both."""
+tests build, is a type of C++ itself, and forgives more. The compiler only reads here: it makes no code, which would take half an hour. MPFR stands
+for both: `./run tradeoff` builds each."""
 
 import concurrent.futures
 import json

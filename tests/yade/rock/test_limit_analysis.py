@@ -397,6 +397,7 @@ def testTheSceneIsWhatItWas():
 		('most', math.inf),
 		('reduce', 'friction'),
 		('reduce', ['weight']),
+		('reduce', 3),
 		('reduce', []),
 	],
 )

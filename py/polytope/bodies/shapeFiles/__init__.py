@@ -7,7 +7,7 @@ import os
 
 from yade import O, Polytope, Vector3
 
-from ...arguments import pathOfFile, positive, vector
+from ...arguments import pathOfFile, pathOfNewFile, positive, vector
 from ...scene.namedBodies import namedBodies
 from ..meshes.files import isMeshFile
 from ..polytopes import builder
@@ -84,7 +84,7 @@ def writeShapes(path, ids=None):
 	:param path: the file; its folder is made if there is none
 	:param ids: of polyhedra; default all
 	:returns: number of polyhedra written
-	:raises ValueError: naming *ids* for a body that is not there or no polyhedron
+	:raises ValueError: naming *ids* for a body that is not there or no polyhedron, *path* for a folder
 	"""
 	chosen = _polyhedra() if ids is None else namedBodies(ids)
 	for k in chosen:
@@ -93,7 +93,7 @@ def writeShapes(path, ids=None):
 			raise ValueError(f'ids: body {k} is no polyhedron')
 	if not chosen:
 		raise ValueError('ids: the scene has no polyhedron to write')
-	return yadeText.write(path, [O.bodies[k] for k in chosen])
+	return yadeText.write(pathOfNewFile(path, 'path'), [O.bodies[k] for k in chosen])
 
 
 def _polyhedra():
