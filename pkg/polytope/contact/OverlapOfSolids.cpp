@@ -48,9 +48,8 @@ OverlapOfSolids::OverlapOfSolids(const SolidOfPieces (&solids)[2], bool flat, co
 	std::vector<std::pair<int, std::size_t>> named; // body and number of each
 	std::vector<polytope::Plane>             ofBody[2];
 	const auto                               isThere = [&](int body, const polytope::Plane& plane) {
-                return std::any_of(ofBody[1 - body].begin(), ofBody[1 - body].end(), [&](const polytope::Plane& other) {
-                        return solids[body].isSame(other, plane, reach);
-                });
+                return std::any_of(ofBody[1 - body].begin(), ofBody[1 - body].end(),
+		                                      [&](const polytope::Plane& other) { return solids[body].isSame(other, plane, reach); });
 	};
 	const auto add = [&](int body, bool own) {
 		const std::vector<FaceOfPiece>& faces = solids[body].faces;

@@ -82,12 +82,16 @@ bool SolidOfPieces::risesAt(const FaceOfPiece& face, const FaceOfPiece& beside, 
 {
 	Vector3r along;
 	if (!wayOut(face.plane, beside.plane, along)) return false;
-	const Real     flush = Real(polytope::tolerance::flushOfDepth), half = math::max(ball_, Real(depth / 2));
-	const Vector3r in = middle - edge, up = flush * half * math::max(Real(1), Real(flush * in.norm() / length)) * in.normalized();
-	return std::any_of(std::begin(polytope::tolerance::closeBy), std::end(polytope::tolerance::closeBy), [&](const double& way) {
-		const Vector3r out = edge + offFace(Real(way) * half) * along;
-		return goesThrough(out + up, out - up, false);
-	});
+	const Real     flush = Real(polytope::tolerance::flushOfDepth);
+	const Vector3r in = middle - edge, up = flush * ball_ * math::max(Real(1), Real(flush * in.norm() / length)) * in.normalized();
+	const auto     isHigher = [&](double way, const Vector3r& height) {
+                const Vector3r out = edge + offFace(Real(way) * ball_) * along;
+                return goesThrough(out + height, out - height, false);
+	};
+	const double *const first = std::begin(polytope::tolerance::closeBy), *const farthest = std::end(polytope::tolerance::closeBy) - 1;
+	const bool     isStep = std::any_of(first, farthest, [&](double way) { return isHigher(way, up); });
+	const Vector3r height = isStep ? Vector3r(math::max(Real(1), Real(depth / (2 * ball_))) * up) : up;
+	return std::any_of(first, farthest + 1, [&](double way) { return isHigher(way, height); });
 }
 
 void SolidOfPieces::leaveOut(std::size_t which, const std::vector<Vector3r>& overlap)

@@ -41,10 +41,10 @@ public:
 	bool covers(const FaceOfPiece& face, const std::vector<Vector3r>& corners, const Vector3r& middle) const;
 
 	/// Whether one of them rises above the face `beside`, at the middle `edge` of the edge with it of a covered face with such a middle. It is looked
-	/// for along that face, and so at one height above it. That is a part of half the overlap's `depth` below that face, the ball's radius where the body lies
-	/// flat, and not of the ball, which shrinks to nothing as a body leaves the piece or comes onto it: a step that counts as none on the way does so at its
-	/// ends. Both go as the depth, for whether a hollow edge counts is a matter of its angle, and does not change as a body sinks in. The height is more at
-	/// the ends of a long face, whose edges there are short; `length`: of the edge, without end where there is a corner alone.
+	/// for along that face, and so at one height above it. That is a part of the ball's radius, not of the face's height: whether a hollow edge counts is
+	/// a matter of its angle, and does not change as a body sinks in. What is as high at the edge itself is a step: of it, a part of half the overlap's `depth`
+	/// below the face `beside`, which is that radius where the body lies flat, while the ball shrinks to nothing as a body leaves the piece or comes onto
+	/// it. It is more at the ends of a long face, whose edges there are short; `length`: of the edge, without end where there is a corner alone.
 	bool risesAt(const FaceOfPiece& face, const FaceOfPiece& beside, const Vector3r& edge, const Real& length, const Vector3r& middle,
 	        const Real& depth) const;
 
