@@ -92,12 +92,14 @@ public:
 			extent  = maxOf(extent, V(absolute(x[0]) + absolute(x[1]) + absolute(x[2])));
 		}
 		for (int v = 0; v <= last; ++v) {
-			const R* const p = buffers_.point + 4 * v;
-			const V x[3] = { broadcast<R, W>(p[0]), broadcast<R, W>(p[1]), broadcast<R, W>(p[2]) }, s = broadcast<R, W>(p[3]);
+			const R* const p    = buffers_.point + 4 * v;
+			const V        x[3] = { broadcast<R, W>(p[0]), broadcast<R, W>(p[1]), broadcast<R, W>(p[2]) };
+			V own = broadcast<R, W>(R(padOffset)); // for each vertex anew: AVX2 has no register left for one of all vertices
 			for (int k = 0; k < planes_.total; k += W) {
 				V a[3];
-				least = minOf(least, V(slacksOf<R, 3, W>(planes_, k, x, a) - s));
+				own = minOf(own, slacksOf<R, 3, W>(planes_, k, x, a));
 			}
+			least = minOf(least, V(own - broadcast<R, W>(p[3])));
 		}
 		largest_ = horizontalMax<R, W>(largest);
 		// a pressure is no more certain than a rounding over the overlap's thickness: a vertex need not be
