@@ -11,9 +11,9 @@ tan φ, cohesion, tensile strength and their residual values of each joint and b
 materials of different strengths keep their proportions. Bolts (polytope.bolt) keep theirs.
 """
 
-import collections.abc
 import dataclasses
 import math
+from collections.abc import Iterable
 
 from yade import O, RockJointMat, RockJointPhys
 from yade.math import atan, tan  # of YADE's numbers, in any precision
@@ -73,7 +73,7 @@ def divideStrengths(factor, reduce=strengths):
 
 def checkedStrengths(reduce):
 	"""Refuses what is no sequence of *strengths*."""
-	names = () if isinstance(reduce, str) or not isinstance(reduce, collections.abc.Iterable) else list(reduce)
+	names = () if isinstance(reduce, str) or not isinstance(reduce, Iterable) else list(reduce)
 	if not names or not all(name in strengths for name in names):
 		raise ValueError(f'reduce: must be a sequence of one or more of {strengths}, got {reduce!r}')
 

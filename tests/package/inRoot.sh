@@ -72,7 +72,7 @@ remove() {
 # Its examples, built with what is installed: a program with the core alone, which then runs without the headers; a law that YADE finds in its
 # folder, with a block at rest on it; a shape. Once the packages are gone no file of them is left.
 headers() {
-	local example said
+	local said
 	cp -r "/usr/share/doc/$1/examples" /root/try
 	cd /root/try/examples
 	# side by side: each reads YADE's headers for a minute

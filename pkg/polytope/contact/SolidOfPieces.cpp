@@ -89,8 +89,9 @@ bool SolidOfPieces::risesAt(const FaceOfPiece& face, const FaceOfPiece& beside, 
                 return goesThrough(out + height, out - height, false);
 	};
 	const double *const first = std::begin(polytope::tolerance::closeBy), *const farthest = std::end(polytope::tolerance::closeBy) - 1;
-	const bool     isStep = std::any_of(first, farthest, [&](double way) { return isHigher(way, up); });
-	const Vector3r height = isStep ? Vector3r(math::max(Real(1), Real(depth / (2 * ball_))) * up) : up;
+	const bool isStep = std::any_of(first, farthest, [&](double way) { return isHigher(way, up); });
+	if (!isStep) return isHigher(*farthest, up);
+	const Vector3r height = math::max(Real(1), Real(depth / (2 * ball_))) * up;
 	return std::any_of(first, farthest + 1, [&](double way) { return isHigher(way, height); });
 }
 
