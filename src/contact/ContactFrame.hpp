@@ -97,6 +97,7 @@ template <class R, int D> POLYTOPE_INLINE void homeFrame(const PlacedPair& in, C
 			f.world.m[j][k]       = h(j, k);
 			f.own[f.home].m[j][k] = j == k;
 		}
+		if constexpr (D == 3) f.world.m[k][3] = f.own[f.home].m[k][3] = 0;
 		f.origin[0][k] = f.origin[1][k] = 0;
 	}
 	f.own[other] = ownAxes<R, D>(*in.rotation[other], f.world);

@@ -61,7 +61,7 @@ POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R
 	const PairPlanes<R, 3>& planes = near ? near->planes() : all;
 	FeasibleSet<R, W>       vertices(planes, surface.size, set);
 	if (!(near ? vertices.explore(basis, surface.energy) : vertices.recall(*kept, all.first, surface.energy))) return false;
-	FeasibleSums<R> sums(set, surface.energy, surface.sums);
+	FeasibleSums<R, W> sums(set, surface.energy, surface.sums);
 	if (surface.on) sums.clip(planes, R(tolerance::pieceBox) * surface.size, spare(planes.total), *surface.on);
 	surface.sums.kept = !near;
 	if (!near) surface.deepest = vertices.largestPressure();

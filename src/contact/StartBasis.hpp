@@ -21,7 +21,7 @@ enum class StartBasis {
 };
 
 /// Solves the basis given by codes (PairMemory::basis) in the frame; false if it cannot be used. `dual`: its dual direction.
-template <class R, int D>
+template <class R, int D, int W>
 POLYTOPE_INLINE bool startFrom(
         const PlacedPair& in, const ContactFrame<R, D>& f, const std::array<int, 4>& codes, LpBasis<R, D>& basis, R* dual)
 {
@@ -31,7 +31,7 @@ POLYTOPE_INLINE bool startFrom(
 		for (int j = 0; j < D; ++j)
 			normals[k][j] = a[j];
 	};
-	if (!solveBasis<R, D>(plane, basis)) return false;
+	if (!solveBasis<R, D, W>(plane, basis)) return false;
 	for (int j = 0; j < D; ++j) {
 		dual[j] = 0;
 		for (int k = 0; k <= D; ++k)
@@ -55,7 +55,7 @@ POLYTOPE_INLINE bool startFromOwnBall(const PlacedPair& in, const ContactFrame<R
 
 /// A start basis of either body, the smaller ball's first, solved in the frame: the other one, where turning a basis of nearly parallel planes
 /// has made it singular. False if both are.
-template <class R, int D>
+template <class R, int D, int W>
 POLYTOPE_INLINE bool startFromBall(const PlacedPair& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis, R* dual)
 {
 	int ball = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
@@ -63,7 +63,7 @@ POLYTOPE_INLINE bool startFromBall(const PlacedPair& in, const ContactFrame<R, D
 		if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) continue;
 		for (int k = 0; k <= D; ++k)
 			memory.basis[k] = planeCode(ball, in.shape[ball]->inscribedBasis()[k]);
-		if (startFrom<R, D>(in, f, memory.basis, basis, dual)) return true;
+		if (startFrom<R, D, W>(in, f, memory.basis, basis, dual)) return true;
 	}
 	for (int k = 0; k < D; ++k)
 		basis.point[k] = dual[k] = 0;
@@ -84,20 +84,20 @@ template <class R, int D, int W> POLYTOPE_INLINE StartBasis startBasis(const Pai
 	if (known && memory.hasPoint && followContact<R, D>(in, f, memory.point, memory.dualDirection)) {
 		placePair<R, D, W>(in, f, planes);
 		recallBasis<R, D>(planes, memory, basis);
-		if (solveBasis<R, D>(planes, basis) && dualFeasible<R, D>(basis)) return StartBasis::LastContact;
+		if (solveBasis<R, D, W>(planes, basis) && dualFeasible<R, D>(basis)) return StartBasis::LastContact;
 	}
 	if (!finitePose<R, D>(in)) return StartBasis::NoPose; // planes that are not finite separate nothing
 
 	homeFrame<R, D>(in, f);
 	R          dual[D];
-	const bool last = known && startFrom<R, D>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
+	const bool last = known && startFrom<R, D, W>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
 	if (!last) memory.hasPoint = false;
 	if (!last && startFromOwnBall<R, D>(in, f, memory, basis)) {
 		placePairAtHome<R, D, W>(in, f, planes);
 		recallBasis<R, D>(planes, memory, basis);
 		return StartBasis::OwnBall;
 	}
-	const bool some = last || startFromBall<R, D>(in, f, memory, basis, dual);
+	const bool some = last || startFromBall<R, D, W>(in, f, memory, basis, dual);
 	if (some && lowerBound<R, D>(basis, q.limits.reach) > q.limits.dismissAbove) return StartBasis::Separating;
 
 	const R away = maxOf<R>(1, norm<R, D>(basis.point) / f.size);
@@ -108,7 +108,7 @@ template <class R, int D, int W> POLYTOPE_INLINE StartBasis startBasis(const Pai
 	placePair<R, D, W>(in, f, planes);
 	recallBasis<R, D>(planes, memory, basis);
 	if (!some) return StartBasis::None;
-	if (!moveBasis<R, D>(planes, turn, origin, -R(tolerance::thin) * f.size, basis)) return StartBasis::Unsolved;
+	if (!moveBasis<R, D, W>(planes, turn, origin, -R(tolerance::thin) * f.size, basis)) return StartBasis::Unsolved;
 	return away > 1 ? StartBasis::AimedFar : StartBasis::Aimed;
 }
 

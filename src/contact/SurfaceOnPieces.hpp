@@ -53,7 +53,7 @@ public:
 	{
 		for (int k = 0; k <= D; ++k)
 			optimum.plane[k] = simplex_ + k;
-		if (!solveBasis<R, D>(planes_, optimum)) return false;
+		if (!solveBasis<R, D, W>(planes_, optimum)) return false;
 		ProgramLimits<R> all = q.limits;
 		all.dismissAbove     = R(padOffset);
 		int pivots           = 0;

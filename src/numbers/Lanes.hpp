@@ -27,25 +27,8 @@ constexpr int padWidth = 4;
 /// (Where the precision has more than 60 digits, its weight has to be smaller than those.)
 constexpr double padOffset = std::numeric_limits<Real>::digits > 150 ? 1e300 : 1e60;
 
-/// Four numbers of a type that has no vectors: used for the linear program's four rows in long double.
-template <class R> struct Plain4 {
-	R             v[4];
-	R&            operator[](int k) { return v[k]; }
-	const R&      operator[](int k) const { return v[k]; }
-	Plain4        operator-() const { return { { -v[0], -v[1], -v[2], -v[3] } }; }
-	Plain4&       operator+=(const Plain4& o) { return *this = *this + o; }
-	Plain4&       operator-=(const Plain4& o) { return *this = *this - o; }
-	Plain4&       operator*=(const Plain4& o) { return *this = *this * o; }
-	friend Plain4 operator+(const Plain4& a, const Plain4& b) { return { { a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3] } }; }
-	friend Plain4 operator-(const Plain4& a, const Plain4& b) { return { { a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3] } }; }
-	friend Plain4 operator*(const Plain4& a, const Plain4& b) { return { { a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3] } }; }
-};
-
 template <class R, int W> struct Lanes { // W is 1 here
 	using Type = R;
-};
-template <class R> struct Lanes<R, 4> {
-	using Type = Plain4<R>;
 };
 template <> struct Lanes<double, 2> {
 	typedef double Type __attribute__((vector_size(16)));
@@ -53,32 +36,27 @@ template <> struct Lanes<double, 2> {
 template <> struct Lanes<double, 4> {
 	typedef double Type __attribute__((vector_size(32)));
 };
-template <class R, int W> constexpr bool isVector = !std::is_same_v<typename Lanes<R, W>::Type, Plain4<R>>;
 
 template <class R, int W> POLYTOPE_INLINE typename Lanes<R, W>::Type load(const R* p)
 {
 	if constexpr (W == 1) return *p;
-	else if constexpr (isVector<R, W>) {
+	else {
 		typename Lanes<R, W>::Type v;
 		std::memcpy(&v, p, sizeof v);
 		return v;
-	} else return { { p[0], p[1], p[2], p[3] } };
+	}
 }
 
 template <class R, int W> POLYTOPE_INLINE void store(R* p, const typename Lanes<R, W>::Type& v)
 {
 	if constexpr (W == 1) *p = v;
-	else if constexpr (isVector<R, W>) std::memcpy(p, &v, sizeof v);
-	else
-		for (int k = 0; k < W; ++k)
-			p[k] = v[k];
+	else std::memcpy(p, &v, sizeof v);
 }
 
 template <class R, int W> POLYTOPE_INLINE typename Lanes<R, W>::Type broadcast(const R& x)
 {
 	if constexpr (W == 1) return x;
-	else if constexpr (isVector<R, W>) return x - typename Lanes<R, W>::Type {};
-	else return { { x, x, x, x } };
+	else return x - typename Lanes<R, W>::Type {};
 }
 
 /// 0, 1, … W − 1.
@@ -107,7 +85,7 @@ template <class R, int W, class V> POLYTOPE_INLINE R horizontalSum(const V& v)
 template <class R, int W, int N, class V> POLYTOPE_INLINE void horizontalSums(const V (&v)[N], R (&sums)[N])
 {
 	int k = 0;
-	if constexpr (W == 4 && isVector<R, W>)
+	if constexpr (W == 4)
 		for (; k + 4 <= N; k += 4) {
 			const V ab
 			        = __builtin_shufflevector(v[k], v[k + 1], 0, 4, 2, 6) + __builtin_shufflevector(v[k], v[k + 1], 1, 5, 3, 7);
@@ -140,7 +118,6 @@ template <class R, int W, class V> POLYTOPE_INLINE R horizontalMin(const V& v)
 {
 	if constexpr (W == 1) return v;
 	else if constexpr (W == 2) return minOf<R>(v[0], v[1]);
-	else if constexpr (!isVector<R, W>) return minOf<R>(minOf<R>(v[0], v[2]), minOf<R>(v[1], v[3]));
 	else {
 		const V pairs = minOf(v, V(__builtin_shufflevector(v, v, 2, 3, 0, 1)));
 		return minOf<R>(pairs[0], pairs[1]);
@@ -148,22 +125,6 @@ template <class R, int W, class V> POLYTOPE_INLINE R horizontalMin(const V& v)
 }
 
 template <class R, int W, class V> POLYTOPE_INLINE R horizontalMax(const V& v) { return -horizontalMin<R, W>(V(-v)); }
-
-/// Four numbers as lanes: put together in registers, since reading a vector back from four numbers just written stalls.
-template <class R> POLYTOPE_INLINE typename Lanes<R, 4>::Type four(R a, R b, R c, R d)
-{
-	if constexpr (isVector<R, 4>) {
-		const typename Lanes<R, 4>::Type v = { a, b, c, d };
-		return v;
-	} else return { { a, b, c, d } };
-}
-
-/// Lanes a, b, c, d of v in this order.
-template <class R, int a, int b, int c, int d, class V> POLYTOPE_INLINE V shuffled(const V& v)
-{
-	if constexpr (isVector<R, 4>) return __builtin_shufflevector(v, v, a, b, c, d);
-	else return { { v[a], v[b], v[c], v[d] } };
-}
 
 /// The columns of four vectors of four.
 template <class V> POLYTOPE_INLINE void transpose(const V (&row)[4], V (&column)[4])
@@ -179,10 +140,16 @@ template <class V> POLYTOPE_INLINE void transpose(const V (&row)[4], V (&column)
 /// Four numbers each from W places, place(lane), the same of all in one vector.
 template <class R, int W, class Place, class V> POLYTOPE_INLINE void gatherFours(const Place& place, V (&four)[4])
 {
-	if constexpr (W == 4 && isVector<R, W>) {
+	if constexpr (W == 4) {
 		const V row[4] = { load<R, 4>(place(0)), load<R, 4>(place(1)), load<R, 4>(place(2)), load<R, 4>(place(3)) };
 		transpose(row, four);
-	} else
+	} else if constexpr (W == 2)
+		for (int m = 0; m < 4; m += 2) {
+			const V one = load<R, 2>(place(0) + m), other = load<R, 2>(place(1) + m);
+			four[m]     = __builtin_shufflevector(one, other, 0, 2);
+			four[m + 1] = __builtin_shufflevector(one, other, 1, 3);
+		}
+	else
 		for (int m = 0; m < 4; ++m) {
 			R lanes[W];
 			for (int lane = 0; lane < W; ++lane)
@@ -194,12 +161,17 @@ template <class R, int W, class Place, class V> POLYTOPE_INLINE void gatherFours
 /// To W places that follow each other.
 template <class R, int W, class V> POLYTOPE_INLINE void scatterFours(const V (&four)[4], R* to)
 {
-	if constexpr (W == 4 && isVector<R, W>) {
+	if constexpr (W == 4) {
 		V row[4];
 		transpose(four, row);
 		for (int lane = 0; lane < 4; ++lane)
 			store<R, 4>(to + 4 * lane, row[lane]);
-	} else
+	} else if constexpr (W == 2)
+		for (int m = 0; m < 4; m += 2) {
+			store<R, 2>(to + m, __builtin_shufflevector(four[m], four[m + 1], 0, 2));
+			store<R, 2>(to + 4 + m, __builtin_shufflevector(four[m], four[m + 1], 1, 3));
+		}
+	else
 		for (int m = 0; m < 4; ++m) {
 			R lanes[W];
 			store<R, W>(lanes, four[m]);
@@ -208,15 +180,8 @@ template <class R, int W, class V> POLYTOPE_INLINE void scatterFours(const V (&f
 		}
 }
 
-/// a × b of the first three lanes.
-template <class R, class V> POLYTOPE_INLINE V crossProduct(const V& a, const V& b)
-{
-	return shuffled<R, 1, 2, 0, 3>(a) * shuffled<R, 2, 0, 1, 3>(b) - shuffled<R, 2, 0, 1, 3>(a) * shuffled<R, 1, 2, 0, 3>(b);
-}
-
-template <class R> POLYTOPE_INLINE Plain4<R> absolute(const Plain4<R>& v) { return { { abs(v[0]), abs(v[1]), abs(v[2]), abs(v[3]) } }; }
-template <class V> POLYTOPE_INLINE V         absolute(const V& v) { return v < 0 ? -v : v; }
-POLYTOPE_INLINE double                       absolute(double v) { return std::abs(v); }
-POLYTOPE_INLINE long double                  absolute(long double v) { return std::abs(v); }
+template <class V> POLYTOPE_INLINE V absolute(const V& v) { return v < 0 ? -v : v; }
+POLYTOPE_INLINE double               absolute(double v) { return std::abs(v); }
+POLYTOPE_INLINE long double          absolute(long double v) { return std::abs(v); }
 
 } // namespace polytope

@@ -11,7 +11,7 @@ namespace polytope {
 /// Rotation of D dimensions, row-major plain numbers: the kernel's own, since kernel code is compiled for several
 /// instruction sets and must not emit Eigen's functions.
 template <class R, int D> struct Rotation {
-	R m[D][D == 3 ? 4 : D]; ///< rows of whole lanes
+	R m[D][D == 3 ? 4 : D]; ///< rows of whole lanes, the last number being zero
 };
 
 template <class R, int D> POLYTOPE_INLINE R dot(const R* a, const R* b)
@@ -51,16 +51,9 @@ template <class R, int D, class Left> POLYTOPE_INLINE Rotation<R, D> product(con
 {
 	Rotation<R, D> out;
 	if constexpr (D == 3) {
-		using V = typename Lanes<R, 4>::Type;
-		V row[3];
-		for (int i = 0; i < 3; ++i)
-			row[i] = four<R>(right.m[i][0], right.m[i][1], right.m[i][2], 0);
-		for (int j = 0; j < 3; ++j) {
-			V sum = row[0] * broadcast<R, 4>(left(j, 0));
-			sum += row[1] * broadcast<R, 4>(left(j, 1));
-			sum += row[2] * broadcast<R, 4>(left(j, 2));
-			store<R, 4>(out.m[j], sum);
-		}
+		for (int j = 0; j < 3; ++j)
+			for (int k = 0; k < 4; ++k)
+				out.m[j][k] = right.m[0][k] * left(j, 0) + right.m[1][k] * left(j, 1) + right.m[2][k] * left(j, 2);
 	} else
 		for (int j = 0; j < D; ++j)
 			for (int k = 0; k < D; ++k)
@@ -74,6 +67,8 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> transposed(const Rotati
 	for (int j = 0; j < D; ++j)
 		for (int k = 0; k < D; ++k)
 			out.m[j][k] = t.m[k][j];
+	for (int j = 0; D == 3 && j < D; ++j)
+		out.m[j][3] = 0;
 	return out;
 }
 

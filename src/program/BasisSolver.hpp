@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "numbers/Four.hpp"
 #include "program/LpBasis.hpp"
 #include "program/PairPlanes.hpp"
 
@@ -172,48 +173,46 @@ __attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const
 	return refineBasis<R, D>(a, d, basis);
 }
 
-/// solveFromDifferences() in 3-D with the planes in order, all rows at once: lane k is row k. a[j]: component j of the four
+/// solveFromDifferences() in 3-D with the planes in order, all rows at once: number k is row k's. a[j]: component j of the four
 /// normals. Also s.
-template <class R>
-POLYTOPE_INLINE R solveRows(const typename Lanes<R, 4>::Type (&a)[3], const typename Lanes<R, 4>::Type& d, LpBasis<R, 3>& basis)
+template <class R, class V> POLYTOPE_INLINE R solveRows(const V (&a)[3], const V& d, LpBasis<R, 3>& basis)
 {
-	using V = typename Lanes<R, 4>::Type;
-	V e[3], c[3], row[4]; // lane 0, the root's, is zero until its row is the others' rest
+	V e[3], c[3], row[4]; // the first number, the root's, is zero until its row is the others' rest
 	for (int j = 0; j < 3; ++j)
-		e[j] = a[j] - broadcast<R, 4>(a[j][0]);
-	const V difference = d - broadcast<R, 4>(d[0]);
+		e[j] = a[j] - repeated<V>(a[j][0]);
+	const V difference = d - repeated<V>(d[0]);
 	for (int j = 0; j < 3; ++j) {
 		const V &u = e[(j + 1) % 3], &v = e[(j + 2) % 3];
-		c[j] = shuffled<R, 0, 2, 3, 1>(u) * shuffled<R, 0, 3, 1, 2>(v) - shuffled<R, 0, 2, 3, 1>(v) * shuffled<R, 0, 3, 1, 2>(u);
+		c[j] = shuffled<0, 2, 3, 1>(u) * shuffled<0, 3, 1, 2>(v) - shuffled<0, 2, 3, 1>(v) * shuffled<0, 3, 1, 2>(u);
 	}
 	const V volume = e[0] * c[0] + e[1] * c[1] + e[2] * c[2];
 	const V length = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
 	const R det    = volume[1];
 	if (!(det * det > R(tolerance::smallVolume) * R(tolerance::smallVolume) * (length[1] * length[2] * length[3]))) return R(padOffset);
-	const V reciprocal = broadcast<R, 4>(1 / det);
-	row[3]             = broadcast<R, 4>(0);
+	const V reciprocal = repeated<V>(1 / det);
+	row[3]             = repeated<V>(R(0));
 	for (int j = 0; j < 3; ++j) {
 		row[j] = c[j] * reciprocal;
-		row[3] -= row[j] * broadcast<R, 4>(a[j][0]);
+		row[3] -= row[j] * repeated<V>(a[j][0]);
 	}
 	const V products[4] = { row[0] * difference, row[1] * difference, row[2] * difference, row[3] * difference };
 	R       sums[4], rest[4];
-	horizontalSums<R, 4>(products, sums);
-	horizontalSums<R, 4>(row, rest);
-	V longest = broadcast<R, 4>(0);
+	sumsOf(products, sums);
+	sumsOf(row, rest);
+	V longest = repeated<V>(R(0));
 	for (int j = 0; j < 4; ++j) {
-		row[j][0] = R(j == 3) - rest[j];
-		longest += absolute(row[j]);
-		store<R, 4>(basis.inverse[j], row[j]);
+		row[j] += four<V>(R(j == 3) - rest[j], R(0), R(0), R(0));
+		longest += sizes(row[j]);
+		storeFour(basis.inverse[j], row[j]);
 	}
 	for (int j = 0; j < 3; ++j)
 		basis.point[j] = sums[j];
 	// from the weights, which sum to one
 	basis.infeasibility = -(d[0] + sums[3]);
-	longest *= broadcast<R, 4>(R(tolerance::rounding));
-	store<R, 4>(basis.weight, row[3]);
-	store<R, 4>(basis.noise, longest);
-	return -horizontalMin<R, 4>(-longest);
+	longest *= repeated<V>(R(tolerance::rounding));
+	storeFour(basis.weight, row[3]);
+	storeFour(basis.noise, longest);
+	return largestOf(longest);
 }
 
 /// s from the weights, not from z: their residual Σ λ a multiplies a point of the overlap, z's one multiplies x, which may be far.
@@ -226,17 +225,18 @@ template <class R, int D> POLYTOPE_INLINE void setValue(const R (&d)[D + 1], LpB
 
 /// Solves the basis of D + 1 planes, plane(k, a, d) being the k-th: inverse, weights, point, s. False if singular (normals
 /// that, with the row of ones, are linearly dependent to rounding).
-template <class R, int D, class Plane> POLYTOPE_INLINE bool solveBasis(const Plane& plane, LpBasis<R, D>& basis)
+template <class R, int D, int W, class Plane> POLYTOPE_INLINE bool solveBasis(const Plane& plane, LpBasis<R, D>& basis)
 {
 	R a[D + 1][D], d[D + 1];
 	for (int k = 0; k <= D; ++k)
 		plane(k, a[k], d[k]);
 	if constexpr (D == 3) {
-		const typename Lanes<R, 4>::Type normals[3] = { four<R>(a[0][0], a[1][0], a[2][0], a[3][0]),
-			four<R>(a[0][1], a[1][1], a[2][1], a[3][1]), four<R>(a[0][2], a[1][2], a[2][2], a[3][2]) };
+		using V            = Four<R, W>;
+		const V normals[3] = { four<V>(a[0][0], a[1][0], a[2][0], a[3][0]), four<V>(a[0][1], a[1][1], a[2][1], a[3][1]),
+			four<V>(a[0][2], a[1][2], a[2][2], a[3][2]) };
 		for (int j = 0; j < 3; ++j)
-			store<R, 4>(basis.normal[j], normals[j]);
-		if (solveRows<R>(normals, four<R>(d[0], d[1], d[2], d[3]), basis) <= R(tolerance::refinedBasis)) return true;
+			storeFour(basis.normal[j], normals[j]);
+		if (solveRows<R>(normals, four<V>(d[0], d[1], d[2], d[3]), basis) <= R(tolerance::refinedBasis)) return true;
 		if (!solveNearlyParallel<R, D>(a, d, basis)) return false;
 	} else {
 		for (int k = 0; k <= D; ++k)
@@ -250,9 +250,9 @@ template <class R, int D, class Plane> POLYTOPE_INLINE bool solveBasis(const Pla
 	return true;
 }
 
-template <class R, int D> POLYTOPE_INLINE bool solveBasis(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis)
+template <class R, int D, int W> POLYTOPE_INLINE bool solveBasis(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis)
 {
-	return solveBasis<R, D>([&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA { planes.plane(basis.plane[k], a, d); }, basis);
+	return solveBasis<R, D, W>([&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA { planes.plane(basis.plane[k], a, d); }, basis);
 }
 
 /// refineBasis() for a basis of little noise, which solveBasis() leaves as it is. Also s. Not inlined, since it is rare.
@@ -276,10 +276,10 @@ template <class R, int D> POLYTOPE_INLINE void readNormals(const PairPlanes<R, D
 /// The solved basis in the planes' frame; `turn` and `origin` transform from the frame it was solved in.
 /// Turned with it while its s is below `thin`; solved afresh where the overlap is so thin that rounding in the first frame
 /// would matter.
-template <class R, int D>
+template <class R, int D, int W>
 POLYTOPE_INLINE bool moveBasis(const PairPlanes<R, D>& planes, const Rotation<R, D>& turn, const R* origin, R thin, LpBasis<R, D>& basis)
 {
-	if (!(basis.infeasibility < thin)) return solveBasis<R, D>(planes, basis);
+	if (!(basis.infeasibility < thin)) return solveBasis<R, D, W>(planes, basis);
 	R moved[D];
 	for (int j = 0; j < D; ++j)
 		moved[j] = basis.point[j] - origin[j];

@@ -150,10 +150,10 @@ POLYTOPE_INLINE LpStatus solveLp(
 		next->plane[leaving] = q;
 		++pivots;
 		refined = false;
-		if (!solveBasis<R, D>(planes, *next)) {
+		if (!solveBasis<R, D, W>(planes, *next)) {
 			next->plane[leaving]                     = now->plane[leaving];
 			next->plane[steadiestRow<R, D>(*now, w)] = q;
-			if (!solveBasis<R, D>(planes, *next)) return end(LpStatus::Undecided);
+			if (!solveBasis<R, D, W>(planes, *next)) return end(LpStatus::Undecided);
 		}
 		stalled                  = next->infeasibility > now->infeasibility ? 0 : stalled + 1;
 		bland                    = stalled > tolerance::stalledPivots;

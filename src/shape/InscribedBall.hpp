@@ -39,7 +39,7 @@ public:
 	bool solve()
 	{
 		int pivots = 0;
-		solveBasis<Real, D>(planes_, basis_);
+		solveBasis<Real, D, 1>(planes_, basis_);
 		if (solveLp<Real, D, 1>(planes_, basis_, reach_, Real(padOffset), reach_, limit_, pivots) != LpStatus::Optimal)
 			return false;
 		for (int k = 0; k <= D; ++k)
@@ -56,7 +56,7 @@ public:
 	}
 
 	/// Solves the basis afresh, since refinement does not keep its inverse. False if it is singular or not dual feasible.
-	bool solveAgain() { return solveBasis<Real, D>(planes_, basis_) && dualFeasible<Real, D>(basis_); }
+	bool solveAgain() { return solveBasis<Real, D, 1>(planes_, basis_) && dualFeasible<Real, D>(basis_); }
 
 	const LpBasis<Real, D>& basis() const { return basis_; }
 

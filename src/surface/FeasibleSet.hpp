@@ -206,11 +206,11 @@ private:
 	/// them. Returns how s changes on it.
 	POLYTOPE_INLINE R edge(int v, const Crossing& c, int slot, Four& way) const
 	{
-		const Four out = broadcast<R, 4>(c.volume > 0 ? R(1) : R(-1));
+		const Four out = repeated<Four>(c.volume > 0 ? R(1) : R(-1));
 		way            = slot < 3 ? -out * c.across[slot] : out * (c.across[0] + c.across[1] + c.across[2]);
 		if (slot == 3 && vertices_.isNone(v, 3)) way = -way;
 		return slot < 3 ? -vertices_.dotOf3(c.last, way)
-		                : -vertices_.dotOf3(load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][0]), way);
+		                : -vertices_.dotOf3(loadFour<Four>(buffers_.plane + 4 * buffers_.tight[v][0]), way);
 	}
 
 	/// The optimum's planes may be no vertex with the split offsets. Dual pivots lead to that which is the optimum with those.

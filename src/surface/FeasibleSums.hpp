@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "numbers/Four.hpp"
 #include "surface/ContactSurface.hpp"
 #include "surface/FeasiblePieces.hpp"
 #include "surface/FeasiblePolygon.hpp"
@@ -19,7 +20,7 @@
 ///     V = Σ k/4 ∫ dV,     W = Σ k (σ/20 ∫ dV + 1/5 ∫ p dV),     the integrals over the cell.
 namespace polytope {
 
-template <class R> class FeasibleSums {
+template <class R, int W> class FeasibleSums {
 public:
 	/// `energy`: also overlap, volume and level.
 	POLYTOPE_INLINE FeasibleSums(FeasibleBuffers<R>& buffers, bool energy, SurfaceSums<R, 3>& sums) : buffers_(buffers)
@@ -56,7 +57,7 @@ public:
 	}
 
 private:
-	using Four  = typename Lanes<R, 4>::Type;
+	using Four  = polytope::Four<R, W>;
 	using Owner = typename FeasibleBuffers<R>::Owner;
 
 	/// SurfaceSums::add() with three components at a time.
@@ -67,24 +68,24 @@ private:
 
 		POLYTOPE_INLINE Between()
 		{
-			areaVector = centre = mainNormal = mainCentre = force = moment = deeper = deeperTurn = broadcast<R, 4>(R(0));
+			areaVector = centre = mainNormal = mainCentre = force = moment = deeper = deeperTurn = repeated<Four>(R(0));
 		}
 
 		/// n: its unit normal; the integrals as in PieceIntegrals, of the part that is between the bodies; `whole`: ∫ p dS of all of it.
 		POLYTOPE_INLINE void add(const Four& n, R ofArea, R p, R whole, R square, const Four& pMoment, const Four& squareMoment)
 		{
-			const Four once = broadcast<R, 4>(p), all = broadcast<R, 4>(whole), half = broadcast<R, 4>(R(1) / 2);
+			const Four once = repeated<Four>(p), all = repeated<Four>(whole), half = repeated<Four>(R(1) / 2);
 			area += ofArea;
 			pressure += p;
 			weight += p * whole;
-			areaVector += broadcast<R, 4>(ofArea) * n;
+			areaVector += repeated<Four>(ofArea) * n;
 			centre += pMoment;
 			mainNormal += once * all * n;
 			mainCentre += all * pMoment;
 			force += once * n;
-			moment += crossProduct<R>(pMoment, n);
-			deeper += broadcast<R, 4>(square) * half * n;
-			deeperTurn += half * crossProduct<R>(squareMoment, n);
+			moment += crossProduct(pMoment, n);
+			deeper += repeated<Four>(square) * half * n;
+			deeperTurn += half * crossProduct(squareMoment, n);
 			++pieces;
 		}
 
@@ -142,21 +143,21 @@ private:
 		R    area = 0, pressure = 0, square = 0;
 		Four moment, squareMoment; ///< about the first vertex
 
-		POLYTOPE_INLINE OfPiece() { moment = squareMoment = broadcast<R, 4>(R(0)); }
+		POLYTOPE_INLINE OfPiece() { moment = squareMoment = repeated<Four>(R(0)); }
 	};
 
 	/// `cells`: if the energy is asked for.
 	POLYTOPE_INLINE void add(const FeasiblePiece& piece, const FeasibleCells<R>* cells, Between& all, SurfaceSums<R, 3>& sums) const
 	{
 		const R    share  = shareBetween(piece.i, piece.j);
-		const Four normal = load<R, 4>(buffers_.plane + 4 * piece.i) - load<R, 4>(buffers_.plane + 4 * piece.j),
-		           o      = load<R, 4>(buffers_.point + 4 * piece.first);
+		const Four normal = loadFour<Four>(buffers_.plane + 4 * piece.i) - loadFour<Four>(buffers_.plane + 4 * piece.j),
+		           o      = loadFour<Four>(buffers_.point + 4 * piece.first);
 		const R p0        = maxOf<R>(o[3], 0);
 		OfPiece of;
 		for (int t = 0; t < piece.triangles; ++t) {
-			const Four from  = load<R, 4>(buffers_.point + 4 * piece.ends[2 * t]) - o,
-			           to    = load<R, 4>(buffers_.point + 4 * piece.ends[2 * t + 1]) - o;
-			const Four along = normal * crossProduct<R>(from, to);
+			const Four from  = loadFour<Four>(buffers_.point + 4 * piece.ends[2 * t]) - o,
+			           to    = loadFour<Four>(buffers_.point + 4 * piece.ends[2 * t + 1]) - o;
+			const Four along = normal * crossProduct(from, to);
 			const R    area = abs(along[0] + along[1] + along[2]), p1 = p0 + from[3], p2 = p0 + to[3], sum = p0 + p1 + p2;
 			of.area += area;
 			of.pressure += area * sum;
@@ -164,12 +165,12 @@ private:
 			const R second = sum * sum + p0 * p0 + p1 * p1 + p2 * p2;
 			of.square += area * second;
 			// from the first vertex on: there it is zero
-			const Four way = from + to, mixed = broadcast<R, 4>(p1) * from + broadcast<R, 4>(p2) * to;
-			of.moment += broadcast<R, 4>(area) * (broadcast<R, 4>(sum) * way + mixed);
+			const Four way = from + to, mixed = repeated<Four>(p1) * from + repeated<Four>(p2) * to;
+			of.moment += repeated<Four>(area) * (repeated<Four>(sum) * way + mixed);
 			if (!cells) continue;
-			of.squareMoment += broadcast<R, 4>(area)
-			        * (broadcast<R, 4>(second) * way + broadcast<R, 4>(2 * sum) * mixed + broadcast<R, 4>(2 * p1 * p1) * from
-			                + broadcast<R, 4>(2 * p2 * p2) * to);
+			of.squareMoment += repeated<Four>(area)
+			        * (repeated<Four>(second) * way + repeated<Four>(2 * sum) * mixed + repeated<Four>(2 * p1 * p1) * from
+			                + repeated<Four>(2 * p2 * p2) * to);
 		}
 		const Four squares = normal * normal;
 		const R    length  = squares[0] + squares[1] + squares[2];
@@ -177,9 +178,9 @@ private:
 		if (cells) addCones(piece, *cells, of, normal, o, 1 / (6 * length), sums);
 		if (!(share > 0)) return;
 		const R inverse = 1 / sqrt(length), half = share * inverse / 2, p = of.pressure * half / 3, square = of.square * half / 12;
-		all.add(normal * broadcast<R, 4>(inverse), of.area * half, p, p / share, square,
-		        broadcast<R, 4>(p) * o + of.moment * broadcast<R, 4>(half / 12),
-		        broadcast<R, 4>(square) * o + of.squareMoment * broadcast<R, 4>(half / 60));
+		all.add(normal * repeated<Four>(inverse), of.area * half, p, p / share, square,
+		        repeated<Four>(p) * o + of.moment * repeated<Four>(half / 12),
+		        repeated<Four>(square) * o + of.squareMoment * repeated<Four>(half / 60));
 	}
 
 	/// The cones over a piece from the first vertices of its cells. `third`: of the piece's true area over that of `of`, over its normal's length.
@@ -189,7 +190,7 @@ private:
 		for (int side = 0; side < 2; ++side) {
 			const int cell = side ? piece.j : piece.i;
 			if (!cells.hasCone(cell, side ? piece.i : piece.j)) continue;
-			const Four apex = load<R, 4>(buffers_.point + 4 * cells.firstIn[cell]), along = normal * (apex - first);
+			const Four apex = loadFour<Four>(buffers_.point + 4 * cells.firstIn[cell]), along = normal * (apex - first);
 			const R    weight = abs(along[0] + along[1] + along[2]) * third, dV = weight * of.area,
 			        pdV = (apex[3] * dV + weight * of.pressure) / 4, height = slackAt(0, cell);
 			if (buffers_.owner[cell] == Owner::NoBody) sums.overlap += dV;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "numbers/Four.hpp"
 #include "surface/FeasibleBuffers.hpp"
 
 #include <utility>
@@ -11,7 +12,7 @@ namespace polytope {
 template <class R, int W> class FeasibleVertices {
 public:
 	using Buffers = FeasibleBuffers<R>;
-	using Four    = typename Lanes<R, 4>::Type; ///< x, y, z and s, or a and d
+	using Four    = polytope::Four<R, W>; ///< x, y, z and s, or a and d
 
 	POLYTOPE_INLINE FeasibleVertices(const PairPlanes<R, 3>& planes, R size, Buffers& buffers)
 	        : planes_(planes), size_(size), buffers_(buffers)
@@ -30,9 +31,9 @@ public:
 		buffers_.rowOf[k] = row;
 		buffers_.owner[k] = no ? Buffers::NoBody : row >= planes_.first ? Buffers::Body2 : Buffers::Body1;
 		const Four plane  = no
-		         ? broadcast<R, 4>(R(0))
-		         : four<R>(planes_.normal[0][row], planes_.normal[1][row], planes_.normal[2][row], planes_.offset[row]);
-		store<R, 4>(buffers_.plane + 4 * k, plane);
+		         ? repeated<Four>(R(0))
+		         : four<Four>(planes_.normal[0][row], planes_.normal[1][row], planes_.normal[2][row], planes_.offset[row]);
+		storeFour(buffers_.plane + 4 * k, plane);
 	}
 
 	static POLYTOPE_INLINE R dotOf3(const Four& a, const Four& b)
@@ -160,12 +161,12 @@ private:
 		return true;
 	}
 
-	POLYTOPE_INLINE Four tightPlane(int v, int slot) const { return load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][slot]); }
+	POLYTOPE_INLINE Four tightPlane(int v, int slot) const { return loadFour<Four>(buffers_.plane + 4 * buffers_.tight[v][slot]); }
 
 	static POLYTOPE_INLINE void multiply(Crossing& c)
 	{
 		for (int k = 0; k < 3; ++k)
-			c.across[k] = crossProduct<R>(c.row[(k + 1) % 3], c.row[(k + 2) % 3]);
+			c.across[k] = crossProduct(c.row[(k + 1) % 3], c.row[(k + 2) % 3]);
 		c.volume  = dotOf3(c.row[0], c.across[0]);
 		c.lengths = 64; // differences of unit vectors
 	}
@@ -203,28 +204,28 @@ private:
 	POLYTOPE_INLINE void refine(int v, const Crossing& c)
 	{
 		R* const   point = buffers_.point + 4 * v;
-		const Four x     = load<R, 4>(point);
+		const Four x     = loadFour<Four>(point);
 		R          left[3];
 		for (int k = 0; k < 3; ++k)
 			left[k] = (c.row[k][3] - dotOf3(c.row[k], x)) / c.volume;
-		const Four step = c.across[0] * broadcast<R, 4>(left[0]) + c.across[1] * broadcast<R, 4>(left[1])
-		        + c.across[2] * broadcast<R, 4>(left[2]);
+		const Four step = c.across[0] * repeated<Four>(left[0]) + c.across[1] * repeated<Four>(left[1])
+		        + c.across[2] * repeated<Four>(left[2]);
 		R moved = 0;
 		for (int m = 0; m < 3; ++m) {
 			point[m] += step[m];
 			moved += abs(step[m]);
 		}
 		moved_ = maxOf<R>(moved_, moved / closeness(v));
-		if (!isNone(v, 3)) point[3] = c.last[3] - dotOf3(c.last, load<R, 4>(point));
+		if (!isNone(v, 3)) point[3] = c.last[3] - dotOf3(c.last, loadFour<Four>(point));
 	}
 
 	POLYTOPE_INLINE void placeAt(int v, const Crossing& c)
 	{
-		const Four x = (c.across[0] * broadcast<R, 4>(c.row[0][3]) + c.across[1] * broadcast<R, 4>(c.row[1][3])
-		                       + c.across[2] * broadcast<R, 4>(c.row[2][3]))
-		        * broadcast<R, 4>(1 / c.volume);
+		const Four x = (c.across[0] * repeated<Four>(c.row[0][3]) + c.across[1] * repeated<Four>(c.row[1][3])
+		                       + c.across[2] * repeated<Four>(c.row[2][3]))
+		        * repeated<Four>(1 / c.volume);
 		R point[4];
-		store<R, 4>(point, x);
+		storeFour(point, x);
 		for (int m = 0; m < 3; ++m)
 			buffers_.point[4 * v + m] = point[m];
 		buffers_.point[4 * v + 3] = isNone(v, 3) ? R(0) : c.last[3] - dotOf3(c.last, x);

@@ -49,7 +49,7 @@ private:
 	POLYTOPE_INLINE void begin(const PairPlanes<R, D>& all, const LpBasis<R, D>& given)
 	{
 		LpBasis<R, D> basis = given; // of the frame before it was turned
-		bounded_            = solveBasis<R, D>(all, basis);
+		bounded_            = solveBasis<R, D, W>(all, basis);
 		R dual[D] = {}, first = 0, deep = padOffset;
 		for (int k = 0; k <= D; ++k) {
 			R a[D], d;

@@ -38,9 +38,9 @@ struct BothOutlines {
 		Set                      buffers(planes.total, numbers.data(), indices.data());
 		FeasibleSet<Real, width> set(planes, pair.size(), buffers);
 		if (!set.explore(basis.plane, false)) return;
-		SurfaceSums<Real, 3> sums;
-		FeasibleSums<Real>   sum(buffers, false, sums);
-		Real                 normal[3], place[3];
+		SurfaceSums<Real, 3>      sums;
+		FeasibleSums<Real, width> sum(buffers, false, sums);
+		Real                      normal[3], place[3];
 		if (!mainPlane<Real>(sums, normal, place)) return;
 		std::vector<Real> room(std::size_t(sectionNumbers(rows.planes.total)));
 		clipped = clipPlane<Real>(rows.planes, place, normal, 2 * pair.size(), room.data());

@@ -80,7 +80,7 @@ private:
 			FeasibleBuffers<Real>    buffers(all.total, numbers.data(), indices.data());
 			FeasibleSet<Real, width> set(all, size, buffers);
 			if (!set.explore(basis, true)) return;
-			FeasibleSums<Real> sum(buffers, true, sums);
+			FeasibleSums<Real, width> sum(buffers, true, sums);
 			status = sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None;
 		}
 	}
