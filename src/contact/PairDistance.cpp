@@ -2,6 +2,7 @@
 #include "contact/PairDistance.hpp"
 
 #include "numbers/Tolerances.hpp"
+#include "shape/DistanceTolerances.hpp"
 
 #include <Eigen/QR>
 
@@ -67,10 +68,25 @@ namespace {
 	public:
 		Corral(const Vector3& one, const Vector3& other) { add(one, other); }
 
-		int     size() const { return size_; }
+		int size() const { return size_; }
+		/// It is normal to the line or plane through the vertices. Rounding of their sum, which is of their size and not of the distance, does
+		/// not turn it.
 		Vector3 nearest() const
 		{
-			return sum([&](int k) { return difference(k); });
+			Vector3 point = sum([&](int k) { return difference(k); });
+			Vector3 axes[3];
+			for (int k = 1; k < size_; ++k) {
+				const Vector3 edge = difference(k) - difference(0);
+				Vector3&      axis = axes[k - 1];
+				axis               = edge;
+				for (int twice = 0; twice < 2; ++twice)
+					for (int j = 0; j + 1 < k; ++j)
+						axis -= axes[j].dot(axis) * axes[j];
+				const Real length = axis.norm(), least = Real(tolerance::edgeOfOthers) * edge.norm();
+				axis = length > least ? Vector3(axis / length) : Vector3(Vector3::Zero());
+				point -= axis.dot(point) * axis;
+			}
+			return point;
 		}
 		Vector3 point(int body) const
 		{

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "numbers/Tolerances.hpp"
+
 /// Thresholds of distances from segments and planes, as numbers/Tolerances.hpp has those of the contact path: meaning, scale, reason.
 namespace polytope::tolerance {
 
@@ -15,6 +17,10 @@ constexpr int segmentSteps = 60;
 /// Square of the sine of the angle below which two segments are parallel: their nearest places are then the middle of where they lie beside
 /// each other.
 constexpr double parallelSegments = 1e-12;
+
+/// × an edge's length: where no more of it is left beside other edges from the same vertex, it is rounding of the vertices' places, and has no
+/// direction of its own (contact/PairDistance.cpp).
+constexpr Real edgeOfOthers = 4 * rounding;
 
 /// Sine of the angle from which on two faces, an edge and a face, or two edges of bodies with margins count as not parallel: their force
 /// then acts at the nearest points (contact/SpreadContact.hpp). A face that lies on another one parts from it on one side at a tilt of

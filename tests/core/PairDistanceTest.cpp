@@ -62,6 +62,28 @@ TEST_P(Distances, AreThoseOfTheNearestPoints)
 	EXPECT_GT(touching, 1000);
 }
 
+TEST_P(Distances, OfBodiesThatOverlapByLittleAreZero)
+{
+	const int       dimension = GetParam();
+	std::mt19937_64 random(83 + dimension);
+	const Shapes    shapes = randomShapes(60, random, dimension);
+	int             thin   = 0;
+	for (int trial = 0; trial < 6000; ++trial) {
+		SCOPED_TRACE(trial);
+		Pair                pair  = randomPair(shapes, random);
+		const ContactResult deep  = linearProgram(pair);
+		const Vector3&      way   = deep.dualDirection;
+		const Real          least = decades(random, -12, -7) * pair.size();
+		if (!(deep.infeasibility < -least && way.norm() > 1e-3)) continue;
+		pair.centre2 += (-deep.infeasibility - least) / way.squaredNorm() * way;
+		const Real depth = -linearProgram(pair).infeasibility;
+		if (!(depth > 64 * tolerance::rounding * pair.reach() && depth < 2 * least)) continue;
+		++thin;
+		EXPECT_EQ(distanceOf(pair).distance, 0);
+	}
+	EXPECT_GT(thin, 1000);
+}
+
 TEST(DistanceOfPoints, IsThatOfTheirHulls)
 {
 	std::mt19937_64 random(31);
