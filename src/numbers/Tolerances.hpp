@@ -239,6 +239,9 @@ constexpr Real overlapChanged = 0.05;
 /// Steps between two searches for internal faces of a pair that touched before: between two of them, a body at
 /// 1 m/s moves by a hundredth of its size at most.
 constexpr int internalFacesEvery = 16;
+/// The same of a contact that is followed: between two of them its bodies move by a twelfth of the overlap's depth at most (linearAcross,
+/// linearSteps). A search takes much longer than such a contact's step, and a mass that rests on fixed blocks has many of them.
+constexpr int internalFacesEveryFollowed = 64;
 /// Way of a pair's contact point on one body against that on the other since the last step, over the smaller circumradius, above which a body was put
 /// elsewhere, and its internal faces are looked for at once.
 constexpr Real putElsewhere = 0.01;

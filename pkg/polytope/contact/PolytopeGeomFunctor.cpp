@@ -184,10 +184,11 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	const bool                     surface = hasSurface(options.contactModel);
 	geom.atOnePoint                        = !surface;
 
-	const bool      turn     = isTurn(*c, *scene);
-	const bool      asPieces = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
-	const bool      search   = asPieces && (turn || !geom.internalKnown || !wasReal || changeOfBodies_.in(*scene));
 	FollowedContact followed(pair, options, wasReal, geom);
+	const bool      turn     = isTurn(*c, *scene, polytope::tolerance::internalFacesEvery);
+	const bool      due      = turn && (!followed.isKnown() || isTurn(*c, *scene, polytope::tolerance::internalFacesEveryFollowed));
+	const bool      asPieces = surface && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
+	const bool      search   = asPieces && (due || !geom.internalKnown || !wasReal || changeOfBodies_.in(*scene));
 	polytope::ContactResult result;
 	if (!search && followed.take(result)) return write(result, frame1.origin, state1, state2, shift2, force, c);
 	polytope::ContactSettings settings    = this->settings(options, geom, wasReal, force);

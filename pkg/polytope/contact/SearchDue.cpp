@@ -24,9 +24,9 @@ namespace {
 
 } // namespace
 
-bool isTurn(const Interaction& contact, const Scene& scene)
+bool isTurn(const Interaction& contact, const Scene& scene, int every)
 {
-	return (scene.iter + contact.getId1() + contact.getId2()) % polytope::tolerance::internalFacesEvery == 0;
+	return (scene.iter + contact.getId1() + contact.getId2()) % every == 0;
 }
 
 /// The last contact point is not where it was on both bodies then.

@@ -13,8 +13,8 @@
 /// the others every few steps, and before that where what is known of the pieces may not hold.
 namespace yade {
 
-/// Whether it is this pair's turn: that of all is not in the same step.
-bool isTurn(const Interaction& contact, const Scene& scene);
+/// Whether it is this pair's turn, which comes every so many steps: that of all is not in the same step.
+bool isTurn(const Interaction& contact, const Scene& scene, int every);
 
 /// Whether a script has put one of the two bodies elsewhere since the last step.
 bool wasPutElsewhere(const polytope::PairMemory& memory, const polytope::PlacedPair& pair);
