@@ -42,17 +42,17 @@ template <class R, int D, class V> POLYTOPE_INLINE void toWorldAxes(const Matrix
 }
 
 /// The frame's axes in a body's, from those in the world's.
-template <class R, int D> POLYTOPE_INLINE Rotation<R, D> ownAxes(const Matrix3& rotation, const Rotation<R, D>& world)
+template <class R, int D, int W> POLYTOPE_INLINE Rotation<R, D> ownAxes(const Matrix3& rotation, const Rotation<R, D>& world)
 {
-	return product<R, D>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return rotation(i, j); }, world);
+	return product<R, D, W>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return rotation(i, j); }, world);
 }
 
 /// Axes (columns: the frame's in world axes) for a frame whose origin stays.
-template <class R, int D> POLYTOPE_INLINE void setAxes(const PlacedPair& in, ContactFrame<R, D>& f, const Rotation<R, D>& world)
+template <class R, int D, int W> POLYTOPE_INLINE void setAxes(const PlacedPair& in, ContactFrame<R, D>& f, const Rotation<R, D>& world)
 {
 	f.world = world;
 	for (int body = 0; body < 2; ++body)
-		f.own[body] = ownAxes<R, D>(*in.rotation[body], world);
+		f.own[body] = ownAxes<R, D, W>(*in.rotation[body], world);
 }
 
 /// Whether all components of the pose are finite.
@@ -88,7 +88,7 @@ template <class R, int D> POLYTOPE_INLINE void setCentres(const PlacedPair& in, 
 }
 
 /// The smaller body's own frame.
-template <class R, int D> POLYTOPE_INLINE void homeFrame(const PlacedPair& in, ContactFrame<R, D>& f)
+template <class R, int D, int W> POLYTOPE_INLINE void homeFrame(const PlacedPair& in, ContactFrame<R, D>& f)
 {
 	const int      other = 1 - f.home;
 	const Matrix3& h     = *in.rotation[f.home];
@@ -97,10 +97,9 @@ template <class R, int D> POLYTOPE_INLINE void homeFrame(const PlacedPair& in, C
 			f.world.m[j][k]       = h(j, k);
 			f.own[f.home].m[j][k] = j == k;
 		}
-		if constexpr (D == 3) f.world.m[k][3] = f.own[f.home].m[k][3] = 0;
 		f.origin[0][k] = f.origin[1][k] = 0;
 	}
-	f.own[other] = ownAxes<R, D>(*in.rotation[other], f.world);
+	f.own[other] = ownAxes<R, D, W>(*in.rotation[other], f.world);
 }
 
 /// From the planes' frame to world axes (direction).
@@ -140,12 +139,12 @@ template <class R, int D> POLYTOPE_INLINE Vector3 worldPoint(const PlacedPair& i
 }
 
 /// Turns the frame's axes about its origin.
-template <class R, int D> POLYTOPE_INLINE void turnFrame(ContactFrame<R, D>& f, const Rotation<R, D>& turn)
+template <class R, int D, int W> POLYTOPE_INLINE void turnFrame(ContactFrame<R, D>& f, const Rotation<R, D>& turn)
 {
 	const Rotation<R, D> back   = transposed<R, D>(turn);
 	const auto           turned = [&](Rotation<R, D>& t) POLYTOPE_INLINE_LAMBDA {
                 const Rotation<R, D> old = t;
-                t = product<R, D>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return old.m[j][i]; }, back);
+                t = product<R, D, W>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return old.m[j][i]; }, back);
 	};
 	turned(f.world);
 	turned(f.own[0]);
@@ -153,7 +152,7 @@ template <class R, int D> POLYTOPE_INLINE void turnFrame(ContactFrame<R, D>& f, 
 }
 
 /// Turns the frame: last axis along `direction` (if it has one), origin to x; both in the planes' frame.
-template <class R, int D> POLYTOPE_INLINE Rotation<R, D> aim(ContactFrame<R, D>& f, const R* direction, const R* x)
+template <class R, int D, int W> POLYTOPE_INLINE Rotation<R, D> aim(ContactFrame<R, D>& f, const R* direction, const R* x)
 {
 	const R length = norm<R, D>(direction);
 	R       n[D];
@@ -166,7 +165,7 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> aim(ContactFrame<R, D>&
 		for (int k = 0; k < D; ++k)
 			f.origin[body][k] += move[k];
 	}
-	turnFrame<R, D>(f, turn);
+	turnFrame<R, D, W>(f, turn);
 	return turn;
 }
 

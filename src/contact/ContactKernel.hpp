@@ -72,7 +72,7 @@ template <class R, int D, int W> POLYTOPE_INLINE bool alignFrame(const PairQuery
 	if (thickness > R(tolerance::thin)) return false;
 	const bool aimed = start == StartBasis::LastContact ? !leans<R, D>(q.dual, thickness) : !pivoted && start != StartBasis::AimedFar;
 	if (aimed) return false;
-	const Rotation<R, D> turn = aim<R, D>(q.frame, q.dual, q.x);
+	const Rotation<R, D> turn = aim<R, D, W>(q.frame, q.dual, q.x);
 	placePair<R, D, W>(q.in, q.frame, q.planes);
 	turnVector<R, D>(turn, q.dual);
 	for (int k = 0; k < D; ++k)

@@ -20,7 +20,7 @@ template <class R, int D, int W> POLYTOPE_INLINE CentreStatus newtonCentre(const
 		if (centre != CentreStatus::Skewed || turns == tolerance::turns) return centre;
 		const Rotation<R, D> turn = stiffAxes<R, D>(q.planes);
 		turnPlanes<R, D, W>(turn, q.planes);
-		turnFrame<R, D>(q.frame, turn);
+		turnFrame<R, D, W>(q.frame, turn);
 		turnVector<R, D>(turn, start);
 		turnVector<R, D>(turn, q.x);
 		turnVector<R, D>(turn, q.dual);

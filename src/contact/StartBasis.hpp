@@ -81,14 +81,14 @@ template <class R, int D, int W> POLYTOPE_INLINE StartBasis startBasis(const Pai
 	LpBasis<R, D>&      basis  = q.basis;
 	const bool          known  = q.settings.warmStart && memory.hasBasis;
 	setCentres<R, D>(in, f);
-	if (known && memory.hasPoint && followContact<R, D>(in, f, memory.point, memory.dualDirection)) {
+	if (known && memory.hasPoint && followContact<R, D, W>(in, f, memory.point, memory.dualDirection)) {
 		placePair<R, D, W>(in, f, planes);
 		recallBasis<R, D>(planes, memory, basis);
 		if (solveBasis<R, D, W>(planes, basis) && dualFeasible<R, D>(basis)) return StartBasis::LastContact;
 	}
 	if (!finitePose<R, D>(in)) return StartBasis::NoPose; // planes that are not finite separate nothing
 
-	homeFrame<R, D>(in, f);
+	homeFrame<R, D, W>(in, f);
 	R          dual[D];
 	const bool last = known && startFrom<R, D, W>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
 	if (!last) memory.hasPoint = false;
@@ -104,7 +104,7 @@ template <class R, int D, int W> POLYTOPE_INLINE StartBasis startBasis(const Pai
 	R       origin[D];
 	for (int k = 0; k < D; ++k)
 		origin[k] = basis.point[k] / away;
-	const Rotation<R, D> turn = aim<R, D>(f, dual, origin);
+	const Rotation<R, D> turn = aim<R, D, W>(f, dual, origin);
 	placePair<R, D, W>(in, f, planes);
 	recallBasis<R, D>(planes, memory, basis);
 	if (!some) return StartBasis::None;

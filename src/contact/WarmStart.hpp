@@ -121,7 +121,7 @@ template <class R, int D> POLYTOPE_INLINE void carriedPoint(const ContactFrame<R
 /// The frame of the last step's contact: origin half-way between where both bodies have carried the contact point (`own`, in
 /// each body's frame), last axis along `direction` (world axes). False where there is no such frame: the bodies disagree on
 /// the point, having been moved by more than a step.
-template <class R, int D>
+template <class R, int D, int W>
 POLYTOPE_INLINE bool followContact(const PlacedPair& in, ContactFrame<R, D>& f, const std::array<Vector3, 2>& own, const Vector3& direction)
 {
 	R carried[2][D], half[D], n[D], middle[D];
@@ -137,7 +137,7 @@ POLYTOPE_INLINE bool followContact(const PlacedPair& in, ContactFrame<R, D>& f, 
 	const R scale = 1 / length;
 	for (int k = 0; k < D; ++k)
 		n[k] *= scale;
-	setAxes<R, D>(in, f, transposed<R, D>(axesAround<R, D>(n)));
+	setAxes<R, D, W>(in, f, transposed<R, D>(axesAround<R, D>(n)));
 	for (int k = 0; k < D; ++k)
 		middle[k] = f.home == 0 ? carried[0][k] + half[k] : carried[1][k] - half[k];
 	for (int body = 0; body < 2; ++body)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "numbers/Lanes.hpp"
+#include "numbers/Four.hpp"
 
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace polytope {
 /// Rotation of D dimensions, row-major plain numbers: the kernel's own, since kernel code is compiled for several
 /// instruction sets and must not emit Eigen's functions.
 template <class R, int D> struct Rotation {
-	R m[D][D == 3 ? 4 : D]; ///< rows of whole lanes, the last number being zero
+	R m[D][D == 3 ? 4 : D]; ///< rows of whole lanes
 };
 
 template <class R, int D> POLYTOPE_INLINE R dot(const R* a, const R* b)
@@ -47,13 +47,20 @@ template <class R, int D> POLYTOPE_INLINE R norm(const R* v)
 }
 
 /// left·right, `left` a function of row and column. In 3-D a row at a time.
-template <class R, int D, class Left> POLYTOPE_INLINE Rotation<R, D> product(const Left& left, const Rotation<R, D>& right)
+template <class R, int D, int W, class Left> POLYTOPE_INLINE Rotation<R, D> product(const Left& left, const Rotation<R, D>& right)
 {
 	Rotation<R, D> out;
 	if constexpr (D == 3) {
-		for (int j = 0; j < 3; ++j)
-			for (int k = 0; k < 4; ++k)
-				out.m[j][k] = right.m[0][k] * left(j, 0) + right.m[1][k] * left(j, 1) + right.m[2][k] * left(j, 2);
+		using V = Four<R, W>;
+		V row[3];
+		for (int i = 0; i < 3; ++i)
+			row[i] = four<V>(right.m[i][0], right.m[i][1], right.m[i][2], R(0));
+		for (int j = 0; j < 3; ++j) {
+			V sum = row[0] * repeated<V>(R(left(j, 0)));
+			sum += row[1] * repeated<V>(R(left(j, 1)));
+			sum += row[2] * repeated<V>(R(left(j, 2)));
+			storeFour(out.m[j], sum);
+		}
 	} else
 		for (int j = 0; j < D; ++j)
 			for (int k = 0; k < D; ++k)
@@ -67,8 +74,6 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> transposed(const Rotati
 	for (int j = 0; j < D; ++j)
 		for (int k = 0; k < D; ++k)
 			out.m[j][k] = t.m[k][j];
-	for (int j = 0; D == 3 && j < D; ++j)
-		out.m[j][3] = 0;
 	return out;
 }
 
