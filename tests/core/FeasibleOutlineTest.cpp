@@ -18,6 +18,7 @@ struct BothOutlines {
 	Section<Real, 3> clipped;        ///< by all planes of the pair
 	Real             aside   = 0;    ///< between both centroids
 	int              corners = 0;    ///< from the edges of that set
+	bool inPlane = false;            ///< whether rounding alone says on which side of the plane one of its vertices without pressure is
 
 	explicit BothOutlines(const Pair& pair)
 	{
@@ -46,8 +47,15 @@ struct BothOutlines {
 		clipped = clipPlane<Real>(rows.planes, place, normal, 2 * pair.size(), room.data());
 
 		const FeasibleOutline<Real> outline(buffers, normal, place);
-		corners                      = outline.count();
-		simple                       = true;
+		corners = outline.count();
+		simple  = true;
+		for (int v = 0; v < buffers.vertices; ++v) {
+			if (buffers.owner[buffers.tight[v][3]] != Set::NoBody) continue;
+			Real height = 0;
+			for (int k = 0; k < 3; ++k)
+				height += normal[k] * (buffers.point[4 * v + k] - place[k]);
+			inPlane |= std::abs(height) < 64 * tolerance::rounding * pair.reach();
+		}
 		const Rotation<Real, 3> axes = axesAround<Real, 3>(normal);
 		ofEdges                      = ringArea<Real>(corners, [&](int k, Real* uv) {
                         const Real* const p = outline.first() + outline.stride() * k;
@@ -83,6 +91,7 @@ TEST(FeasibleOutline, IsWhatAllPlanesLeaveOfTheMainPlane)
 		if (!both.simple) continue;
 		++asked;
 		found += both.corners > 0;
+		EXPECT_TRUE(both.corners > 0 || both.inPlane);
 		// the height of a vertex above the plane is rounded, over the overlap's thickness it is along an edge
 		const Real rounding = 1024 * tolerance::rounding * pair.reach() / deepest;
 		EXPECT_NEAR(both.ofEdges.area, both.clipped.area,
@@ -90,6 +99,6 @@ TEST(FeasibleOutline, IsWhatAllPlanesLeaveOfTheMainPlane)
 		EXPECT_LE(both.aside * std::sqrt(both.clipped.area), rounding * size * size);
 	}
 	EXPECT_GT(asked, 3000);
-	// where vertices that coincide lie in the plane, rounding says which are above it, and the edges may not say what the outline is
+	// where vertices that coincide lie in the plane, the edges may not say what the outline is: with SSE2 of one of 3059
 	EXPECT_GE(found, asked - asked / 1000);
 }

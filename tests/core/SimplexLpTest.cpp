@@ -191,7 +191,7 @@ TEST(SimplexLp, SeparatedIsSaidAsSoonAsABoundSaysSo)
 	LpBasis<Real, 3>   basis;
 	const int          start[] = { rows.row(0, 4), rows.row(1, 5), rows.row(0, 0), rows.row(0, 2) }; // +z of 1, −z of 2
 	std::copy(start, start + 4, basis.plane);
-	ASSERT_TRUE((solveBasis<Real, 3, 1>(rows.planes, basis)));
+	ASSERT_TRUE((solveBasis<Real, 3, 4>(rows.planes, basis)));
 	EXPECT_EQ(basis.infeasibility, 1);
 	int pivots = 0;
 	EXPECT_EQ((solveLp<Real, 3, 2>(rows.planes, basis, 1, 0, 10, 100, pivots)), LpStatus::Separated);
@@ -205,9 +205,9 @@ TEST(SimplexLp, SingularBasesAreRefused)
 	LpBasis<Real, 3>   basis;
 	const int          belt[] = { rows.row(0, 0), rows.row(0, 1), rows.row(0, 2), rows.row(0, 3) }; // ±x, ±y
 	std::copy(belt, belt + 4, basis.plane);
-	EXPECT_FALSE((solveBasis<Real, 3, 1>(rows.planes, basis)));
+	EXPECT_FALSE((solveBasis<Real, 3, 4>(rows.planes, basis)));
 	basis.plane[3] = rows.row(1, 0); // +x twice
-	EXPECT_FALSE((solveBasis<Real, 3, 1>(rows.planes, basis)));
+	EXPECT_FALSE((solveBasis<Real, 3, 4>(rows.planes, basis)));
 }
 
 // A strip between two parallel planes, closed by planes that are nearly parallel to them: turned by a body's rotation, a
@@ -293,7 +293,7 @@ template <int D> void valueWhereWeightsAreNoisy(unsigned seed)
 		LpBasis<Real, D>   basis, precise;
 		for (int k = 0; k <= D; ++k)
 			basis.plane[k] = rows.row(k / 2, k % 2);
-		if (!solveBasis<Real, D, 1>(rows.planes, basis)) continue;
+		if (!solveBasis<Real, D, 4>(rows.planes, basis)) continue;
 		const Real noise = *std::max_element(basis.noise, basis.noise + D + 1);
 		if (!(noise > 30 * tolerance::rounding && noise < tolerance::refinedBasis)) continue;
 		++noisy;
